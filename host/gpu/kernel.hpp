@@ -1,0 +1,72 @@
+// Compute pipelines, the buffers bound to them, and the recording of their dispatches.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+
+#include "buffer.hpp"
+#include "shader.hpp"
+#include "shared/bindings.h"
+
+namespace ppm::gpu {
+
+/// Buffers by binding number (shared/bindings.h). Plain pointers: the buffers must outlive every use.
+class BindingTable {
+ public:
+  void set(std::uint32_t binding, const Buffer& buffer) { buffers_.at(binding) = &buffer; }
+  const Buffer* get(std::uint32_t binding) const { return buffers_.at(binding); }
+
+ private:
+  std::array<const Buffer*, PPM_BINDING_LIMIT> buffers_{};
+};
+
+/// A pipeline whose set layout and push constant size come from its SPIR-V.
+/// Specialisation constants are given as (constant_id, 32-bit value).
+class Kernel {
+ public:
+  Kernel(Device& device, const Shader& shader,
+         std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> constants = {});
+  ~Kernel();
+  Kernel(Kernel&&) noexcept;
+  Kernel& operator=(Kernel&&) noexcept;
+
+  const std::string& name() const;
+  struct Implementation;
+  Implementation& implementation() const { return *implementation_; }
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Commands of one submission, in order: each sees the results of those before it (barriers are implied).
+class Recorder {
+ public:
+  /// Runs `kernel` over items [0, count). The push block must begin with `uint first, count`, which are filled
+  /// in here: `first` and `count` of each range, as the items are cut into dispatches that keep within the
+  /// device's dispatch time, judged by how long this kernel's items took before. Nothing is recorded for no items.
+  /// The buffers that the kernel declares are taken from `table`; one that is missing is a programming error.
+  template <class Push>
+  void dispatch(const Kernel& kernel, const BindingTable& table, Push push, std::uint64_t count) {
+    static_assert(std::is_trivially_copyable_v<Push> && sizeof(Push) <= 128);
+    dispatch_bytes(kernel, table, &push, sizeof(Push), count);
+  }
+
+  void fill(const Buffer& buffer, std::uint32_t word, std::uint64_t bytes, std::uint64_t offset = 0);
+  void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t from_offset = 0,
+            std::uint64_t to_offset = 0);
+  /// Copies into `destination` when the submission has ended; it must live until then. At most 64 KiB.
+  void read(const Buffer& buffer, void* destination, std::uint64_t bytes, std::uint64_t offset = 0);
+
+  struct Implementation;
+  explicit Recorder(Implementation& implementation) : implementation_(implementation) {}
+
+ private:
+  void dispatch_bytes(const Kernel& kernel, const BindingTable& table, void* push, std::size_t push_bytes,
+                      std::uint64_t count);
+  Implementation& implementation_;
+};
+
+}  // namespace ppm::gpu

@@ -1,0 +1,32 @@
+// Pictures to files, through OpenImageIO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ppm::image {
+
+/// Named facts stored with a picture where the format can hold them (EXR: one attribute each).
+using Attribute = std::pair<std::string, std::variant<int, double, std::string>>;
+
+/// A view of linear RGB, row-major from the top, 3 * width * height floats.
+struct View {
+  std::uint32_t width = 0, height = 0;
+  std::span<const float> rgb;
+};
+
+/// Throws Failure unless the extension is one of .exr, .png, .hdr, the folder exists and a file can be created in it.
+void check_writable(const std::filesystem::path& file);
+
+/// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: 32-bit float channels R, G, B,
+/// ZIP, attributes; HDR: RGBE; PNG: 8 bits, radiance * 2^exposure clipped to [0,1], sRGB curve.
+/// The same picture, attributes and exposure give the same bytes. Throws Failure naming the file.
+void write(const std::filesystem::path& file, const View& picture, double exposure,
+           const std::vector<Attribute>& attributes);
+
+}  // namespace ppm::image

@@ -1,0 +1,298 @@
+// Every record that host and kernels, or two kernels, pass to each other. Scalar block layout; sizes in bytes
+// are asserted on the host.
+#ifndef PPM_SHARED_LAYOUT_H
+#define PPM_SHARED_LAYOUT_H
+
+#include "shared/lang.h"
+
+// Invocations of a workgroup, all kernels. 8 to 256 cost the same on lavapipe; GPUs want 32 or more.
+#define PPM_WORKGROUP_SIZE 64
+
+PPM_NAMESPACE_BEGIN
+
+// ---- Bounding volume hierarchy ------------------------------------------------------------------------
+
+// Entries of the traversal stack; the builder keeps within it.
+#define PPM_BVH_STACK 64
+#define PPM_BVH_MAX_LEAF 4
+#define PPM_BVH_EMPTY 0xffffffffu  // a child that is not there; its box is inverted
+#define PPM_BVH_LEAF 0x80000000u   // set in references to leaves, but PPM_BVH_EMPTY
+
+// Four children. Word i of box_x holds child i's lower plane in the low half, its upper plane in the high half,
+// both on the scene-wide grid of 65536 planes. A reference is an inner node's index, or
+// PPM_BVH_LEAF | (count - 1) << 29 | first slot, count in [1, PPM_BVH_MAX_LEAF], first < 2^29.
+struct BvhNode {
+  uvec4 box_x, box_y, box_z;
+  uvec4 children;
+};  // 64
+
+// ---- Scene ----------------------------------------------------------------------------------------------
+
+// Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, spare), (corner2, spare).
+struct TrianglePositions {
+  vec3 corner0;
+  uint material;
+  vec3 corner1;
+  uint spare1;
+  vec3 corner2;
+  uint spare2;
+};  // 48
+
+// Normals octahedral, 2 x 16 bits; colours 16-bit unorm (r, g in word 0; b in word 1).
+struct TriangleShading {
+  uint normal0, normal1, normal2;
+  uint material;
+  vec2 texcoord0, texcoord1;
+  vec2 texcoord2;
+  uvec2 color0;
+  uvec2 color1;
+  uvec2 color2;
+};  // 64
+
+// Flags of a material.
+#define PPM_MATERIAL_DOUBLE_SIDED 1u  // emits from both sides
+#define PPM_MATERIAL_SOLID 2u         // transmission bends and attenuates; otherwise a thin sheet
+
+#define PPM_MATERIAL_TEXELS 5
+struct MaterialRecord {
+  vec3 base_color;
+  uint texture;            // 1 + index of the base colour texture, 0 for none
+  float metallic;
+  float roughness;
+  float transmission;
+  float ior;
+  vec3 specular_f0;        // of the dielectric part at normal incidence
+  float specular_f90;      // idem at grazing incidence
+  vec3 emission;           // radiance
+  uint flags;
+  vec3 absorption;         // 1 / working length, of the medium inside when SOLID
+  uint spare;
+};  // 80
+
+// Wrap modes and filter as in scene.hpp: bits 0-1 wrap_s, 2-3 wrap_t, 4 nearest.
+struct TextureRecord {
+  uint width, height;
+  uint first;              // index of the first colour (half a texel each)
+  uint sampling;
+};  // 16
+
+#define PPM_LIGHT_TRIANGLE 0u
+#define PPM_LIGHT_POINT 1u
+#define PPM_LIGHT_SPOT 2u
+#define PPM_LIGHT_DIRECTIONAL 3u
+
+#define PPM_LIGHT_TEXELS 4
+struct LightRecord {
+  vec3 position;           // point, spot
+  uint kind;
+  vec3 emission;           // radiance, intensity or irradiance, working frame
+  float probability;       // of being chosen, all lights sum to 1
+  vec3 direction;          // spot, directional: the way the light travels
+  uint triangle;           // slot in leaf order
+  float cos_inner, cos_outer;
+  uint alias_threshold;    // of this record's bin: keep it if a 32-bit word is below
+  uint alias;              // else take this one
+};  // 64
+
+struct SceneConstants {
+  vec3 grid_origin;        // of the BVH's boxes
+  uint light_count;
+  vec3 grid_step;
+  float total_power;       // W / 3 channels summed / working area unit: sum of all lights' mean power
+  vec3 bounding_centre;    // sphere around all triangles, for directional lights
+  float bounding_radius;
+  vec3 camera_position;
+  float camera_tan_half_y; // tan(yfov / 2)
+  vec3 camera_right;
+  float camera_tan_half_x; // idem horizontally
+  vec3 camera_up;
+  uint width;
+  vec3 camera_forward;
+  uint height;
+  uint seed;
+  uint max_depth;          // scattering events between light and eye at most; 0: no limit
+  uint photon_bounce_cap;  // safety: scattering events after which a photon's path is cut and counted
+  uint eye_bounce_cap;     // idem for eye paths
+};  // 128
+
+// ---- Counters ---------------------------------------------------------------------------------------------
+
+#define PPM_COUNTER_PATHS_OUT 0        // paths that go on, or eye paths
+#define PPM_COUNTER_PHOTONS 1          // photons stored (may pass the capacity: then the pass is redone in parts)
+#define PPM_COUNTER_HITS 2             // hit points found (idem)
+#define PPM_COUNTER_CONTINUE 3         // searches to be continued
+#define PPM_COUNTER_PATHS_CUT 4        // paths ended by a safety cap
+#define PPM_COUNTER_NON_FINITE 5       // photons or hits rejected for a NaN or infinity
+#define PPM_COUNTER_CLAMPED 6          // shading-normal factors above PPM_MAX_NORMAL_FACTOR
+#define PPM_COUNTER_OVERFLOW 7         // fixed-point terms or sums out of range
+#define PPM_COUNTER_STACK 8            // traversals whose stack would have overflowed: a fault of the builder
+#define PPM_COUNTER_COUNT 16
+
+// ---- Photon pass ------------------------------------------------------------------------------------------
+
+// A photon's path between two bounces. Flux is in units in which all lights together emit 1 a path.
+struct PhotonPath {
+  vec3 origin;
+  uint path;               // index within the pass
+  vec3 direction;          // unit, the way it travels
+  uint state;              // bits 0-15: scattering events so far; 16-31: 1 + material of the medium, 0 outside
+  vec3 flux;
+  uint skip;               // triangle slot it starts on, PPM_NO_TRIANGLE for none
+};  // 48
+
+#define PPM_NO_TRIANGLE 0xffffffffu
+
+struct PhotonPush {
+  uint first, count;
+  uint pass;               // number of the pass, RNG counter
+  uint emit_first;         // generation: path index of item 0
+  uint generate;           // 1: items are new paths; 0: items are PATHS_IN
+  uint photon_capacity;
+  uint path_capacity;
+};
+
+// ---- Photon grid ------------------------------------------------------------------------------------------
+
+// Cells of one edge length over a box. dense: cell index = x + size.x * (y + size.y * z);
+// otherwise rows (y, z) are hashed into table_mask + 1 cells.
+struct GridConstants {
+  vec3 origin;
+  float inverse_cell;
+  uvec3 size;              // cells along each axis; coordinates are clamped to it
+  uint table_mask;         // hashed: table size - 1, a power of two less one; dense: 0xffffffff
+};  // 32
+
+struct GridPush {
+  uint first, count;
+  GridConstants grid;
+};
+
+struct ScanPush {
+  uint first, count;
+  uint total;              // entries to scan
+};
+
+// ---- Eye pass ---------------------------------------------------------------------------------------------
+
+struct EyePath {
+  vec3 origin;
+  uint pixel;              // within the tile
+  vec3 direction;          // unit, the way it travels
+  uint state;              // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
+  vec3 weight;             // product of specular factors, times filter weight / samples a pixel
+  uint skip;
+  uint sample_index;
+  uint code;               // which branch was taken at each split, first split in the highest bit
+  uint splits;             // bits of code in use
+  float distance;          // length of the path so far, working units
+};  // 64
+
+struct EyePush {
+  uint first, count;
+  uint pass;               // for samplers that draw eye paths anew each pass
+  uint generate;           // 1: items are (pixel, sample) pairs; 0: items are EYE_IN
+  uint tile_first;         // first pixel of the tile, in tile order
+  uint samples;            // eye paths a pixel
+  uint filter_kind;        // PPM_FILTER_*
+  uint hit_capacity;
+  uint path_capacity;
+  float split_weight;      // both branches are followed while a path weighs more than this
+};
+
+#define PPM_FILTER_BOX 0u
+#define PPM_FILTER_TENT 1u
+#define PPM_FILTER_GAUSSIAN 2u
+
+// A hit point. Four planes of 16 bytes.
+struct HitPoint {
+  vec3 position;
+  uint geometric_normal;   // octahedral 2 x 16; both normals on the side of the eye path
+  uint shading_normal;
+  uint outgoing;           // direction to where the eye path came from, octahedral 2 x 16
+  uint statistics;         // index of the statistics this hit point feeds
+  uint flags;              // PPM_HIT_*, bits 8-15: scattering events of the eye path before it
+  vec3 weight;             // of its radiance in the pixel; emission: the radiance itself
+  float footprint;         // radius of the pixel's footprint here, working units
+  uvec4 bsdf;              // BsdfParameters packed, see bsdf.h
+};  // 64
+
+#define PPM_HIT_EMISSION 1u  // not a hit point but light seen: weight is what it adds to the pixel
+
+struct EyeOrderPush {
+  uint first, count;
+  uint hits;               // of the tile
+};
+
+// ---- Statistics, gather, update ---------------------------------------------------------------------------
+
+// Order-free sums over the photons of one pass within a hit point's disc. Integers, so that sums over chunks of
+// photons, tiles or machines are exact: flux in 32.32 fixed point a channel, low word first.
+struct GatherSum {
+  uint count;              // M
+  uint flux[6];            // sum of f_r * flux: r low, r high, g low, ...
+  uint spare;
+  uint second_moment[2];   // room for an order-free second moment of luminance, 16.48 fixed point; zero today
+};  // 40
+
+// Where a search of many photons goes on.
+struct GatherCursor {
+  uint hit;
+  uint row;                // of its box of cells
+  uint offset;             // photons already seen in that row
+};  // 12
+
+struct GatherPush {
+  uint first, count;
+  uint hits_first;         // unused spare for partial tiles: index of item 0
+  uint from_cursors;       // 0: items are hit points; 1: items are CONTINUE_IN
+  uint cursor_capacity;
+  uint photons;            // in the grid
+  GridConstants grid;
+  float flux_scale;        // fixed-point scale of a term
+};
+
+struct UpdatePush {
+  uint first, count;
+  float alpha;
+};
+
+struct ResolvePush {
+  uint first, count;
+  float scale;             // total_power / photons emitted
+};
+
+// ---- Pilot: one radius per hit point ----------------------------------------------------------------------
+
+struct PilotPush {
+  uint first, count;
+  uint round_index;
+  uint mode;               // PPM_PILOT_*
+  float radius;            // searched in this round, or the fixed one
+  float radius_max;        // upper clamp
+  float footprint_scale;   // footprint mode: times; pilot: lower clamp in footprints
+  float wanted;            // photons wanted in a disc
+};
+
+// Bins of the histogram of log2(R^2), half an octave of R^2 each, from 2^-64 on.
+#define PPM_RADIUS_BINS 128
+
+PPM_NAMESPACE_END
+
+#ifdef __cplusplus
+namespace ppm::shared {
+static_assert(sizeof(BvhNode) == 64);
+static_assert(sizeof(TrianglePositions) == 48);
+static_assert(sizeof(TriangleShading) == 64);
+static_assert(sizeof(MaterialRecord) == 16 * PPM_MATERIAL_TEXELS);
+static_assert(sizeof(TextureRecord) == 16);
+static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);
+static_assert(sizeof(SceneConstants) == 128);
+static_assert(sizeof(PhotonPath) == 48);
+static_assert(sizeof(GridConstants) == 32);
+static_assert(sizeof(EyePath) == 64);
+static_assert(sizeof(HitPoint) == 64);
+static_assert(sizeof(GatherSum) == 40);
+}  // namespace ppm::shared
+#endif
+
+#endif  // PPM_SHARED_LAYOUT_H
