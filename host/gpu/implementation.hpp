@@ -1,0 +1,110 @@
+// The room's inner parts: what Device, Buffer, Kernel and Recorder hide and share among themselves.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buffer.hpp"
+#include "device.hpp"
+#include "instance.hpp"
+#include "kernel.hpp"
+#include "physical_device.hpp"
+#include "raw_buffer.hpp"
+#include "spirv_reflection.hpp"
+
+namespace ppm::gpu {
+
+/// Handles are null until made, so that the destructor clears up after a construction that failed
+/// halfway.
+struct Device::Implementation {
+  ~Implementation();
+  void open(const DeviceOptions& chosen);
+
+  const std::string& name() const { return physical.description.name; }
+  void set_name(VkObjectType type, std::uint64_t handle, const std::string& text) const;
+
+  /// Starts the command buffer anew; the work recorded before must have ended.
+  void begin_commands();
+  /// Ends the command buffer, submits it and waits. Whatever happens, nothing runs when it returns
+  /// or throws.
+  void submit_and_wait();
+
+  /// Host memory of kStagingBytes, made when first asked for.
+  RawBuffer& staging();
+
+  DeviceOptions options;
+  std::unique_ptr<Instance> instance;
+  PhysicalDevice physical;
+  VkPhysicalDeviceMemoryProperties memory{};
+  VkDevice handle = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  VkCommandPool command_pool = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkFence fence = VK_NULL_HANDLE;
+  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
+
+  std::uint64_t allocated_bytes = 0, peak_bytes = 0;
+  std::string memory_note;  ///< tells of the first buffer that had to go to host memory
+  std::unique_ptr<RawBuffer> staging_buffer;
+  bool maps_device_memory = true;  ///< tests clear it, to copy through staging memory on any device
+
+  bool recording = false;  ///< a Recorder has the command buffer
+  std::unique_ptr<Recorder::Implementation> recorder;
+  std::map<std::string, KernelTime> times;
+
+ private:
+  void create_device();
+  void create_commands();
+};
+
+constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
+
+struct Buffer::Implementation {
+  explicit Implementation(Device::Implementation& owner) : device(owner) {}
+  ~Implementation();
+
+  bool serves_as(VkDescriptorType type) const;
+  /// Asserts that `size` bytes from `offset` on lie in the buffer.
+  void check_range(std::uint64_t size, std::uint64_t offset) const;
+
+  Device::Implementation& device;
+  std::string name;
+  Usage usage = Usage::storage;
+  RawBuffer raw;
+  VkBufferView view = VK_NULL_HANDLE;
+};
+
+struct Kernel::Implementation {
+  explicit Implementation(Device::Implementation& owner) : device(owner) {}
+  ~Implementation();
+  void open(const Shader& shader,
+            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
+
+  Device::Implementation& device;
+  std::string name;
+  Reflection reflection;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkShaderModule module = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+
+  /// Takes in how long a dispatch took: an exponential moving average.
+  void learn(double seconds, std::uint64_t items);
+
+  double seconds_per_item = 0.0;  ///< by experience; 0: not known yet
+  bool has_run = false;
+
+ private:
+  void check_limits() const;
+  void create_layouts();
+  void create_pipeline(const Shader& shader,
+                       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
+};
+
+}  // namespace ppm::gpu

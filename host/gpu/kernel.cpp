@@ -1,0 +1,136 @@
+#include "kernel.hpp"
+
+#include <algorithm>
+
+#include "call.hpp"
+#include "failure.hpp"
+#include "implementation.hpp"
+
+namespace ppm::gpu {
+
+Kernel::Kernel(Device& device, const Shader& shader,
+               std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> constants)
+    : implementation_(std::make_unique<Implementation>(device.implementation())) {
+  implementation_->open(shader, constants);
+}
+
+Kernel::~Kernel() = default;
+Kernel::Kernel(Kernel&&) noexcept = default;
+Kernel& Kernel::operator=(Kernel&&) noexcept = default;
+
+const std::string& Kernel::name() const {
+  return implementation_->name;
+}
+
+void Kernel::Implementation::open(
+    const Shader& shader, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants) {
+  name = shader.name;
+  reflection = reflect(shader.words, name);
+  check_limits();
+  create_layouts();
+  create_pipeline(shader, constants);
+}
+
+void Kernel::Implementation::check_limits() const {
+  const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
+  std::uint32_t storage = 0, texels = 0;
+  for (const auto& [binding, type] : reflection.bindings) {
+    PPM_ASSERT(binding < PPM_BINDING_LIMIT,
+               "kernel " + name + ", binding " + std::to_string(binding));
+    if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) ++storage;
+    if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) ++texels;
+  }
+  if (storage > limits.maxPerStageDescriptorStorageBuffers ||
+      texels > limits.maxPerStageDescriptorSampledImages) {
+    throw Failure(device.name(), "kernel " + name,
+                  "its " + std::to_string(storage) + " storage and " + std::to_string(texels) +
+                      " texel buffers are more than the device binds",
+                  "choose another device with --device");
+  }
+}
+
+void Kernel::Implementation::create_layouts() {
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (const auto& [number, type] : reflection.bindings) {
+    VkDescriptorSetLayoutBinding binding{};
+    binding.binding = number;
+    binding.descriptorType = type;
+    binding.descriptorCount = 1;
+    binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    bindings.push_back(binding);
+  }
+  VkDescriptorSetLayoutCreateInfo set_info{};
+  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  set_info.pBindings = bindings.data();
+  PPM_VK_CALL(device.name(), vkCreateDescriptorSetLayout, device.handle, &set_info, nullptr,
+              &set_layout);
+
+  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, reflection.push_bytes};
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &set_layout;
+  layout_info.pushConstantRangeCount = reflection.push_bytes > 0 ? 1 : 0;
+  layout_info.pPushConstantRanges = &range;
+  PPM_VK_CALL(device.name(), vkCreatePipelineLayout, device.handle, &layout_info, nullptr, &layout);
+}
+
+void Kernel::Implementation::create_pipeline(
+    const Shader& shader, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants) {
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = shader.words.size_bytes();
+  module_info.pCode = shader.words.data();
+  PPM_VK_CALL(device.name(), vkCreateShaderModule, device.handle, &module_info, nullptr, &module);
+
+  std::vector<VkSpecializationMapEntry> entries;
+  std::vector<std::uint32_t> values;
+  for (const auto& [id, value] : constants) {
+    entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof value), sizeof value});
+    values.push_back(value);
+  }
+  VkSpecializationInfo specialization{};
+  specialization.mapEntryCount = static_cast<std::uint32_t>(entries.size());
+  specialization.pMapEntries = entries.data();
+  specialization.dataSize = values.size() * sizeof(std::uint32_t);
+  specialization.pData = values.data();
+
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = layout;
+  PPM_VK_CALL(device.name(), vkCreateComputePipelines, device.handle, VK_NULL_HANDLE, 1, &info,
+              nullptr, &pipeline);
+  device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name);
+  vkDestroyShaderModule(device.handle, module, nullptr);
+  module = VK_NULL_HANDLE;
+}
+
+Kernel::Implementation::~Implementation() {
+  vkDestroyPipeline(device.handle, pipeline, nullptr);
+  vkDestroyShaderModule(device.handle, module, nullptr);
+  vkDestroyPipelineLayout(device.handle, layout, nullptr);
+  vkDestroyDescriptorSetLayout(device.handle, set_layout, nullptr);
+}
+
+// The first dispatch of all may hold the driver's compilation and tells nothing, unless it stays
+// the only one. Small dispatches are mostly overhead and count for little.
+void Kernel::Implementation::learn(double seconds, std::uint64_t items) {
+  constexpr double kFullWeightItems = 16384.0;
+  constexpr std::uint64_t kTellingItems = 1024;
+  const bool is_first = !has_run;
+  has_run = true;
+  if (is_first || (seconds_per_item == 0.0 && items < kTellingItems)) return;
+  const double count = static_cast<double>(items);
+  const double sample = seconds / count;
+  const double weight =
+      seconds_per_item == 0.0 ? 1.0 : 0.5 * std::min(1.0, count / kFullWeightItems);
+  seconds_per_item += weight * (sample - seconds_per_item);
+}
+
+}  // namespace ppm::gpu
