@@ -20,12 +20,20 @@ struct View {
   std::span<const float> rgb;
 };
 
-/// Throws Failure unless the extension is one of .exr, .png, .hdr, the folder exists and a file can be created in it.
+/// Whether the extension is .exr, .png or .hdr, without regard to case.
+bool has_known_extension(const std::filesystem::path& file);
+
+/// Throws Failure unless the extension is one of .exr, .png, .hdr, the folder exists and a file can
+/// be created in it.
 void check_writable(const std::filesystem::path& file);
 
-/// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: 32-bit float channels R, G, B,
-/// ZIP, attributes; HDR: RGBE; PNG: 8 bits, radiance * 2^exposure clipped to [0,1], sRGB curve.
-/// The same picture, attributes and exposure give the same bytes. Throws Failure naming the file.
+/// The byte a PNG holds for a radiance: radiance * 2^exposure clipped to [0,1], sRGB curve,
+/// nearest; 0 for NaN.
+std::uint8_t srgb_byte(float radiance, double exposure);
+
+/// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: 32-bit float
+/// channels R, G, B, ZIP, attributes; HDR: RGBE, negative and NaN as 0; PNG: 8 bits, srgb_byte. The
+/// same picture, attributes and exposure give the same bytes. Throws Failure naming the file.
 void write(const std::filesystem::path& file, const View& picture, double exposure,
            const std::vector<Attribute>& attributes);
 

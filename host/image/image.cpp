@@ -1,0 +1,128 @@
+#include "image.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "failure.hpp"
+#include "output_file.hpp"
+
+namespace ppm::image {
+namespace {
+
+enum class Format { exr, hdr, png };
+
+/// Nothing for an extension that is none of ours. Letter case does not matter.
+std::optional<Format> format_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".exr") return Format::exr;
+  if (extension == ".hdr") return Format::hdr;
+  if (extension == ".png") return Format::png;
+  return std::nullopt;
+}
+
+Format format_or_failure(const std::filesystem::path& file) {
+  const std::optional<Format> format = format_of(file);
+  if (!format) {
+    throw Failure(file.string(), "", "unknown kind of picture", "use .exr, .png or .hdr");
+  }
+  return *format;
+}
+
+/// RGBE holds neither signs nor infinities; its largest value is a little below 2^127.
+float rgbe_value(float radiance) {
+  constexpr float kLargest = 1.6e38f;
+  return radiance > 0.0f ? std::min(radiance, kLargest) : 0.0f;
+}
+
+OIIO::ImageSpec spec_for(Format format, const View& picture,
+                         const std::vector<Attribute>& attributes) {
+  const auto type = format == Format::png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+  OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height), 3, type);
+  spec.attribute("oiio:ColorSpace", format == Format::png ? "sRGB" : "Linear");
+  if (format != Format::exr) return spec;
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime",
+                 "");  // OpenImageIO would write the time of day, which differs each run
+  for (const auto& [name, value] : attributes) {
+    if (const int* integer = std::get_if<int>(&value)) {
+      spec.attribute(name, *integer);
+    } else if (const double* number = std::get_if<double>(&value)) {
+      spec.attribute(name, OIIO::TypeDesc::DOUBLE, number);
+    } else {
+      spec.attribute(name, std::get<std::string>(value));
+    }
+  }
+  return spec;
+}
+
+/// The whole file in memory, so that what reaches the disk is written and checked by one piece of
+/// code.
+std::vector<unsigned char> encode(Format format, const OIIO::ImageSpec& spec, const void* pixels,
+                                  const std::filesystem::path& file) {
+  const char* name = format == Format::exr ? "exr" : format == Format::hdr ? "hdr" : "png";
+  OIIO::Filesystem::IOVecOutput memory;
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+  const bool written = output && output->set_ioproxy(&memory) &&
+                       output->open(std::string("picture.") + name, spec) &&
+                       output->write_image(spec.format, pixels) && output->close();
+  if (!written) {
+    const std::string cause = output ? output->geterror() : OIIO::geterror();
+    throw Failure(file.string(), "cannot encode the picture", cause, "try another format");
+  }
+  return memory.buffer();
+}
+
+}  // namespace
+
+bool has_known_extension(const std::filesystem::path& file) {
+  return format_of(file).has_value();
+}
+
+void check_writable(const std::filesystem::path& file) {
+  format_or_failure(file);
+  check_creatable(file);
+}
+
+std::uint8_t srgb_byte(float radiance, double exposure) {
+  const double value = static_cast<double>(radiance) * std::exp2(exposure);
+  if (!(value > 0.0)) return 0;  // NaN too
+  if (value >= 1.0) return 255;
+  // IEC 61966-2-1.
+  const double encoded =
+      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+void write(const std::filesystem::path& file, const View& picture, double exposure,
+           const std::vector<Attribute>& attributes) {
+  const Format format = format_or_failure(file);
+  const std::size_t count = std::size_t{3} * picture.width * picture.height;
+  PPM_ASSERT(picture.rgb.size() == count && count > 0, std::to_string(picture.rgb.size()));
+
+  const OIIO::ImageSpec spec = spec_for(format, picture, attributes);
+  std::vector<unsigned char> bytes;
+  if (format == Format::png) {
+    std::vector<std::uint8_t> pixels(count);
+    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(),
+                   [&](float radiance) { return srgb_byte(radiance, exposure); });
+    bytes = encode(format, spec, pixels.data(), file);
+  } else if (format == Format::hdr) {
+    std::vector<float> pixels(count);
+    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(), rgbe_value);
+    bytes = encode(format, spec, pixels.data(), file);
+  } else {
+    bytes = encode(format, spec, picture.rgb.data(), file);
+  }
+  write_whole(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace ppm::image

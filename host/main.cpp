@@ -1,0 +1,38 @@
+// ppm-vk: progressive photon mapping on Vulkan devices.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "devices_command.hpp"
+#include "options.hpp"
+#include "render_command.hpp"
+
+namespace {
+
+int run(const ppm::cli::Options& options) {
+  switch (options.verb) {
+    case ppm::cli::Verb::render:
+      return ppm::cli::render_command(options.render);
+    case ppm::cli::Verb::devices:
+      return ppm::cli::devices_command();
+    case ppm::cli::Verb::nothing:
+      return options.exit_code;
+  }
+  return options.exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that grows too large is an error of write(), as a full disk is
+  try {
+    return run(ppm::cli::parse(argc, argv));
+  } catch (const std::bad_alloc&) {
+    std::fputs("ppm-vk: error: out of memory: use a smaller scene or picture\n", stderr);
+  } catch (const std::exception& error) {  // Failure among them
+    std::fprintf(stderr, "ppm-vk: error: %s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,138 @@
+#include "driver.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <optional>
+
+#include "failure.hpp"
+#include "image.hpp"
+#include "output_file.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace ppm::render {
+namespace {
+
+std::atomic<bool> interruption_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+extern "C" void note_interruption(int) {
+  interruption_requested = true;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Whether the budget was spent.
+bool advance_all(Integrator& integrator, const Settings& settings, const Budget& budget,
+                 const Interruption& interruption, const Log& log) {
+  const auto interrupted = [&] { return interruption.requested(); };
+  Progress progress(log, budget.passes);
+  progress.preparing();
+  if (!integrator.prepare(interrupted)) return false;
+  progress.passing();
+  for (std::uint64_t pass = 1; pass <= budget.passes; ++pass) {
+    if (interrupted() || !integrator.advance(interrupted)) return false;
+    progress.passed(pass, pass * settings.photons_per_pass);
+  }
+  return true;
+}
+
+void warn_of_rejects(const Statistics& statistics, Log& log) {
+  if (statistics.paths_cut > 0) {
+    log.warn(fmt::format("{} paths were cut by the safety cap on their length; light is missing",
+                         statistics.paths_cut));
+  }
+  for (const auto& [reason, count] : statistics.rejected) {
+    if (count > 0) log.warn(fmt::format("{} contributions were rejected: {}", count, reason));
+  }
+}
+
+/// Does `deed`, keeping the first Failure for later.
+template <class Deed>
+void attempt(std::optional<Failure>& first, Deed deed) {
+  try {
+    deed();
+  } catch (const Failure& failure) {
+    if (!first) first = failure;
+  }
+}
+
+}  // namespace
+
+Interruption::Interruption() {
+  interruption_requested = false;
+  struct sigaction action = {};
+  action.sa_handler = note_interruption;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+Interruption::~Interruption() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool Interruption::requested() const {
+  return interruption_requested;
+}
+
+void check_outputs(const Outputs& outputs) {
+  for (const auto& file : outputs.pictures) image::check_writable(file);
+  if (!outputs.statistics.empty()) check_creatable(outputs.statistics);
+}
+
+Outcome drive(Integrator& integrator, const Settings& settings, const Budget& budget,
+              const Outputs& outputs, const Circumstances& circumstances,
+              const Interruption& interruption, Log& log) {
+  const Stopwatch whole;
+  check_outputs(outputs);
+  const bool complete = advance_all(integrator, settings, budget, interruption, log);
+
+  const Picture picture = integrator.resolve();
+  const Statistics& statistics = integrator.statistics();
+  warn_of_rejects(statistics, log);
+  if (!complete) {
+    log.warn(fmt::format("interrupted after {} of {} passes; the picture so far is written",
+                         statistics.passes, budget.passes));
+  }
+  const Stopwatch writing;
+  const auto attributes = picture_attributes(settings, circumstances, statistics);
+  std::optional<Failure> failure;
+  for (const auto& file : outputs.pictures) {
+    attempt(failure, [&] {
+      image::write(file, {picture.width, picture.height, picture.rgb}, outputs.exposure,
+                   attributes);
+      log.note(fmt::format("wrote {}", file.string()));
+    });
+  }
+  if (!outputs.statistics.empty()) {
+    const std::map<std::string, double> seconds = {
+        {"load", circumstances.load_seconds},
+        {"write", writing.seconds()},
+        {"total", circumstances.seconds_before + whole.seconds()}};
+    attempt(failure, [&] {
+      write_whole(outputs.statistics,
+                  statistics_json(settings, circumstances, statistics, seconds, log.warnings()));
+    });
+  }
+  if (failure) throw *failure;
+  return complete ? Outcome::complete : Outcome::interrupted;
+}
+
+}  // namespace ppm::render

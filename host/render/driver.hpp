@@ -1,0 +1,63 @@
+// Runs an integrator: budget, signals, progress, pictures and the statistics file. Knows of no
+// method.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "integrator.hpp"
+#include "log.hpp"
+
+namespace ppm::render {
+
+/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program at
+/// once. One at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  bool requested() const;
+};
+
+/// When a rendering is complete.
+struct Budget {
+  std::uint64_t passes = 64;
+};
+
+/// Where the results go.
+struct Outputs {
+  std::vector<std::filesystem::path> pictures;
+  double exposure = 0.0;             ///< PNG only, powers of two
+  std::filesystem::path statistics;  ///< JSON; empty: none
+};
+
+/// What the driver reports about and cannot know. The frame is that of `settings.camera`.
+struct Circumstances {
+  std::string program;  ///< "ppm-vk 0.1.0"
+  std::string device, driver;
+  std::filesystem::path scene;
+  scene::Frame frame;
+  double load_seconds = 0.0;
+  double seconds_before = 0.0;  ///< from the program's start to the call of drive
+  std::function<std::uint64_t()> device_memory_bytes;  ///< most that was allocated
+};
+
+enum class Outcome { complete, interrupted };
+
+/// Throws Failure unless every file of `outputs` could be written.
+void check_outputs(const Outputs& outputs);
+
+/// Prepares and advances `integrator` until the budget is spent or `interruption` is requested,
+/// then writes the picture so far and the statistics. Calls check_outputs first. When one file
+/// cannot be written the others are all the same, and then the Failure is thrown.
+Outcome drive(Integrator& integrator, const Settings& settings, const Budget& budget,
+              const Outputs& outputs, const Circumstances& circumstances,
+              const Interruption& interruption, Log& log);
+
+}  // namespace ppm::render
