@@ -36,7 +36,7 @@
 #define PPM_BIND_EYE_IN 18             // EyePath
 #define PPM_BIND_EYE_OUT 19            // EyePath
 #define PPM_BIND_STAGED_HITS 20        // HitPoint as found
-#define PPM_BIND_STAGED_KEYS 21        // uvec4: pixel of the tile, order key (2 words), spare
+#define PPM_BIND_STAGED_KEYS 21        // StagedKey
 #define PPM_BIND_ORDER 22              // uint: staged hit of each slot
 
 // A tile's hit points and their statistics.
@@ -44,7 +44,7 @@
 #define PPM_BIND_HITS_1 24
 #define PPM_BIND_HITS_2 25
 #define PPM_BIND_HITS_3 26
-#define PPM_BIND_PIXEL_START 27        // uint a pixel of the tile, one more at the end
+#define PPM_BIND_SAMPLE_START 27       // uint: first hit point of each (pixel, sample), one more at the end
 #define PPM_BIND_STATISTICS 28         // vec4: lambda, radius squared
 #define PPM_BIND_PHOTON_COUNTS 29      // uint: C, all photons ever accepted
 #define PPM_BIND_GATHER_SUMS 30        // GatherSum
@@ -52,7 +52,6 @@
 #define PPM_BIND_CONTINUE_OUT 32       // GatherCursor
 #define PPM_BIND_PIXELS 33             // vec4: radiance of each pixel of the tile
 #define PPM_BIND_RADIUS_HISTOGRAM 34   // uint[PPM_RADIUS_BINS]
-#define PPM_BIND_PILOT 35              // PilotState
 
 // For tests' own kernels.
 #define PPM_BIND_TEST_0 40

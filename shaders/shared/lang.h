@@ -45,6 +45,7 @@ using glm::exp;
 using glm::floatBitsToUint;
 using glm::floor;
 using glm::length;
+using glm::log;
 using glm::max;
 using glm::min;
 using glm::mix;

@@ -125,7 +125,8 @@ struct SceneConstants {
 #define PPM_COUNTER_NON_FINITE 5       // photons or hits rejected for a NaN or infinity
 #define PPM_COUNTER_CLAMPED 6          // shading-normal factors above PPM_MAX_NORMAL_FACTOR
 #define PPM_COUNTER_OVERFLOW 7         // fixed-point terms or sums out of range
-#define PPM_COUNTER_STACK 8            // traversals whose stack would have overflowed: a fault of the builder
+#define PPM_COUNTER_MAX_PIXEL_HITS 8   // most hit points of one pixel
+#define PPM_COUNTER_UNDECIDED 9        // hit points for which the pilot has no radius yet
 #define PPM_COUNTER_COUNT 16
 
 // ---- Photon pass ------------------------------------------------------------------------------------------
@@ -149,6 +150,8 @@ struct PhotonPush {
   uint generate;           // 1: items are new paths; 0: items are PATHS_IN
   uint photon_capacity;
   uint path_capacity;
+  uint stream;             // PPM_STREAM_*
+  uint bounces;            // that this dispatch follows a path at most
 };
 
 // ---- Photon grid ------------------------------------------------------------------------------------------
@@ -167,9 +170,13 @@ struct GridPush {
   GridConstants grid;
 };
 
+// Exclusive scan of CELL_COUNT into CELL_START by serial chunks.
+#define PPM_SCAN_CHUNK 512
+#define PPM_SCAN_SLICE 16384  // chunks that one dispatch of the middle step takes
 struct ScanPush {
   uint first, count;
-  uint total;              // entries to scan
+  uint total;              // entries to scan; middle step: chunks
+  uint slice;              // middle step: first chunk of this dispatch
 };
 
 // ---- Eye pass ---------------------------------------------------------------------------------------------
@@ -181,7 +188,7 @@ struct EyePath {
   uint state;              // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
   vec3 weight;             // product of specular factors, times filter weight / samples a pixel
   uint skip;
-  uint sample_index;
+  uint sample_index;       // of the pixel
   uint code;               // which branch was taken at each split, first split in the highest bit
   uint splits;             // bits of code in use
   float distance;          // length of the path so far, working units
@@ -189,7 +196,7 @@ struct EyePath {
 
 struct EyePush {
   uint first, count;
-  uint pass;               // for samplers that draw eye paths anew each pass
+  uint pass;               // RNG counter, for methods that draw eye paths anew each pass
   uint generate;           // 1: items are (pixel, sample) pairs; 0: items are EYE_IN
   uint tile_first;         // first pixel of the tile, in tile order
   uint samples;            // eye paths a pixel
@@ -212,15 +219,23 @@ struct HitPoint {
   uint statistics;         // index of the statistics this hit point feeds
   uint flags;              // PPM_HIT_*, bits 8-15: scattering events of the eye path before it
   vec3 weight;             // of its radiance in the pixel; emission: the radiance itself
-  float footprint;         // radius of the pixel's footprint here, working units
-  uvec4 bsdf;              // BsdfParameters packed, see bsdf.h
+  uint bsdf_extra;
+  uvec4 bsdf;              // with bsdf_extra: the non-specular lobes, see pack_bsdf in bsdf.h
 };  // 64
+
+// Where a staged hit point belongs: the canonical order is by group, then by (order, code).
+struct StagedKey {
+  uint group;              // pixel of the tile * samples + sample
+  uint order;              // scattering events before it, times 2, plus 1 for light seen
+  uint code;               // EyePath::code
+  float footprint;         // radius of the pixel's footprint here, working units
+};  // 16
 
 #define PPM_HIT_EMISSION 1u  // not a hit point but light seen: weight is what it adds to the pixel
 
 struct EyeOrderPush {
   uint first, count;
-  uint hits;               // of the tile
+  uint samples;            // eye paths a pixel
 };
 
 // ---- Statistics, gather, update ---------------------------------------------------------------------------
@@ -243,12 +258,9 @@ struct GatherCursor {
 
 struct GatherPush {
   uint first, count;
-  uint hits_first;         // unused spare for partial tiles: index of item 0
   uint from_cursors;       // 0: items are hit points; 1: items are CONTINUE_IN
   uint cursor_capacity;
-  uint photons;            // in the grid
   GridConstants grid;
-  float flux_scale;        // fixed-point scale of a term
 };
 
 struct UpdatePush {
@@ -258,23 +270,36 @@ struct UpdatePush {
 
 struct ResolvePush {
   uint first, count;
-  float scale;             // total_power / photons emitted
+  uint samples;            // eye paths a pixel
+  uint skip;               // hit points of each pixel that earlier dispatches have added
+  float scale;             // total power / photons emitted: lambda to radiance, Eq. 13
 };
+
+// Hit points of one pixel that one dispatch of the resolve kernel adds at most.
+#define PPM_RESOLVE_SLICE 8192
+// Rows of cells and photons that one dispatch of a search visits at most for one hit point.
+#define PPM_GATHER_SLICE 8192
 
 // ---- Pilot: one radius per hit point ----------------------------------------------------------------------
 
 struct PilotPush {
   uint first, count;
-  uint round_index;
-  uint mode;               // PPM_PILOT_*
-  float radius;            // searched in this round, or the fixed one
-  float radius_max;        // upper clamp
-  float footprint_scale;   // footprint mode: times; pilot: lower clamp in footprints
-  float wanted;            // photons wanted in a disc
+  uint round_index;        // 0: the largest radius
+  uint last_round;         // 1: whoever has no radius yet gets one
+  float radius;            // searched in this round
+  float footprints_min;    // lower clamp of the result, in footprints
+  uint wanted;             // photons wanted in a disc
+  GridConstants grid;
 };
 
-// Bins of the histogram of log2(R^2), half an octave of R^2 each, from 2^-64 on.
-#define PPM_RADIUS_BINS 128
+struct RadiusPush {
+  uint first, count;
+  float fixed_radius;      // if positive, the radius of all
+  float footprints;        // else this many footprints
+};
+
+// Bins of the histogram of radii, half an octave of R^2 each, from 2^-64 on.
+#define PPM_RADIUS_BINS 160
 
 PPM_NAMESPACE_END
 

@@ -1,0 +1,21 @@
+// Which item an invocation works on.
+#ifndef PPM_LIB_INVOCATION_GLSL
+#define PPM_LIB_INVOCATION_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shared/bindings.h"
+#include "shared/layout.h"
+
+layout(local_size_x = PPM_WORKGROUP_SIZE) in;
+
+// Lavapipe hands each of its threads one contiguous half of the workgroups and steals nothing. Work that is dear in one
+// part of the range is shared evenly when consecutive blocks of items alternate between the halves.
+uint item_of_invocation(uint first) {
+  uint group = gl_WorkGroupID.x;
+  uint half_count = (gl_NumWorkGroups.x + 1u) / 2u;
+  uint block = group < half_count ? 2u * group : 2u * (group - half_count) + 1u;
+  return first + block * PPM_WORKGROUP_SIZE + gl_LocalInvocationID.x;
+}
+
+#endif

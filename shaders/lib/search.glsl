@@ -1,0 +1,59 @@
+// Hit points as the searches read them, and the box of grid cells that a disc touches.
+#ifndef PPM_LIB_SEARCH_GLSL
+#define PPM_LIB_SEARCH_GLSL
+
+#include "lib/texels.glsl"
+#include "shared/bsdf.h"
+#include "shared/grid.h"
+#include "shared/photon.h"
+
+PPM_TEXELS(PPM_BIND_HITS_0, hits_0);
+PPM_TEXELS(PPM_BIND_HITS_1, hits_1);
+PPM_TEXELS(PPM_BIND_SORTED_POSITION, sorted_position);
+PPM_TEXELS(PPM_BIND_SORTED_FLUX, sorted_flux);
+PPM_TEXELS(PPM_BIND_CELL_START, cell_starts);
+
+uint cell_start(uint index) { return PPM_FETCH(cell_starts, index >> 2u)[index & 3u]; }
+
+// The cells that a disc's bounding cube touches.
+struct CellBox {
+  uvec3 low, high;  // both inclusive
+};
+
+CellBox cells_within(GridConstants grid, vec3 position, float radius2) {
+  // Square root and division are not rounded correctly everywhere: a little more never hurts.
+  float radius = sqrt(radius2) * (1.0 + 9.5367431640625e-7) + 1.2e-7;
+  return CellBox(grid_cell(grid, position - vec3(radius)), grid_cell(grid, position + vec3(radius)));
+}
+
+uint row_count(CellBox box) { return (box.high.y - box.low.y + 1u) * (box.high.z - box.low.z + 1u); }
+
+// One row of a box: its cells' photons.
+struct CellRow {
+  uint y, z;
+  uint begin, end;  // in sorted order
+};
+
+CellRow cell_row(GridConstants grid, CellBox box, uint row) {
+  uint rows_y = box.high.y - box.low.y + 1u;
+  CellRow result;
+  result.z = box.low.z + row / rows_y;
+  result.y = box.low.y + row % rows_y;
+  uint base = grid_row(grid, result.y, result.z);
+  result.begin = cell_start(base + box.low.x);
+  result.end = cell_start(base + box.high.x + 1u);
+  return result;
+}
+
+// Whether a photon lies in the disc's ball, counted in the one row that its own position names: rows of a
+// hashed table may overlap.
+bool within(GridConstants grid, CellRow row, vec3 position, vec3 photon_position, float radius2) {
+  precise vec3 offset = photon_position - position;
+  precise float distance2 = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
+  if (distance2 > radius2) return false;
+  if (grid.table_mask == PPM_GRID_DENSE) return true;
+  uvec3 cell = grid_cell(grid, photon_position);
+  return cell.y == row.y && cell.z == row.z;
+}
+
+#endif

@@ -1,0 +1,124 @@
+// Photon tracing pass [HOJ08 section 3.1]: one invocation follows one path for a few bounces.
+//
+// Reads the scene and PATHS_IN (or starts new paths at the lights); writes photons where the path meets surfaces with
+// a non-specular part, and PATHS_OUT with the paths that go on. Order in both is arbitrary: random numbers
+// belong to the path, and everything later sums without regard to order.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/invocation.glsl"
+
+#include "lib/counters.glsl"
+#include "lib/lights.glsl"
+#include "lib/surface.glsl"
+#include "shared/photon.h"
+
+layout(push_constant, scalar) uniform PushBlock { PhotonPush push; };
+layout(binding = PPM_BIND_PATHS_IN, scalar) readonly buffer PathsIn { PhotonPath paths_in[]; };
+layout(binding = PPM_BIND_PATHS_OUT, scalar) writeonly buffer PathsOut { PhotonPath paths_out[]; };
+layout(binding = PPM_BIND_PHOTON_POSITION, scalar) writeonly buffer PhotonPositions { uvec4 photon_position[]; };
+layout(binding = PPM_BIND_PHOTON_FLUX, scalar) writeonly buffer PhotonFluxes { uvec4 photon_flux[]; };
+
+bool hit_filter(uint triangle, vec2 barycentric) { return true; }
+
+// Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering.
+const uint kFirstScatteringBlock = 2u;
+
+PhotonPath emit(RandomStream random) {
+  uvec4 words = random_words(random, 0u);
+  vec4 units = random_units(random, 1u);
+  uint chosen = choose_light(words.x, words.y);
+  Light light = fetch_light(chosen);
+  LightEmission emission = light_emit(light, units, unit_from_word(words.z));
+  PhotonPath path;
+  bool has_surface = light.record.kind == PPM_LIGHT_TRIANGLE;
+  path.origin = has_surface ? offset_origin(emission.position, emission.normal) : emission.position;
+  path.direction = emission.direction;
+  path.path = random.path;
+  path.state = 0u;
+  path.flux = emission.flux / (light.record.probability * scene.total_power);
+  path.skip = has_surface ? light.record.triangle : PPM_NO_TRIANGLE;
+  return path;
+}
+
+void store(PhotonPath path, Surface surface, uint events) {
+  uint slot = atomicAdd(counters[PPM_COUNTER_PHOTONS], 1u);
+  if (slot >= push.photon_capacity) return;  // the host sees the count and redoes the pass in parts
+  Photon photon = Photon(surface.position, -path.direction, path.flux, surface.geometric_normal, events);
+  photon_position[slot] = pack_photon_position(photon);
+  photon_flux[slot] = pack_photon_flux(photon);
+}
+
+// Scatters the path at the surface; false: it ends here.
+bool scatter(inout PhotonPath path, Surface surface, uint events, RandomStream random) {
+  vec4 u = random_units(random, kFirstScatteringBlock + events);
+  vec3 wo = to_local(-path.direction, surface.shading_normal);
+  BsdfSample chosen = bsdf_sample(surface.bsdf, wo, u.xyz, PPM_TRANSPORT_FLUX);
+  if (chosen.forward_pdf_solid_angle <= 0.0) return false;
+
+  bool transmitted = chosen.transmission != 0u;
+  vec3 direction = normalize(to_world(chosen.wi, surface.shading_normal));
+  if (chosen.specular != 0u && !transmitted) direction = reflected_direction(surface, path.direction);
+  float out_ng = dot(direction, surface.geometric_normal);
+  if ((out_ng > 0.0) == transmitted) return false;  // through the surface by way of its interpolated normal
+
+  float factor = shading_normal_factor(wo.z, dot(path.direction, surface.geometric_normal),
+                                       dot(direction, surface.shading_normal), out_ng);
+  if (factor > PPM_MAX_NORMAL_FACTOR) {
+    factor = PPM_MAX_NORMAL_FACTOR;
+    count_event(PPM_COUNTER_CLAMPED);
+  }
+  vec3 flux = path.flux * chosen.weight * factor;
+
+  // Russian roulette that keeps fluxes nearly equal, as pbrt-v4 has it.
+  float survival = min(1.0, max_component(flux) / max_component(path.flux));
+  if (!(u.w < survival)) return false;
+  path.flux = flux / survival;
+  path.direction = direction;
+  path.origin = offset_origin(surface.position,
+                              transmitted ? -surface.geometric_normal : surface.geometric_normal);
+  path.state = transmitted ? transmitted_state(surface, path.state, events + 1u)
+                           : (path.state & 0xffff0000u) | (events + 1u);
+  return true;
+}
+
+// One segment of a path and what happens at its end; false: the path is over.
+bool advance(inout PhotonPath path, RandomStream random) {
+  Hit hit = closest_hit(path.origin, path.direction, path.skip);
+  if (hit.triangle == PPM_NO_TRIANGLE) return false;
+  path.flux *= medium_transmittance(path.state, hit.t);
+  Surface surface = surface_at(hit, path.direction);
+  if (!is_finite3(path.flux) || !is_finite3(surface.position)) {
+    count_event(PPM_COUNTER_NON_FINITE);
+    return false;
+  }
+  if (max_component(path.flux) <= 0.0) return false;
+  uint events = path.state & 0xffffu;
+  if (is_non_specular(surface.bsdf)) store(path, surface, events);
+  if (scene.max_depth != 0u && events + 2u > scene.max_depth) return false;  // no photon further on could count
+  if (events >= scene.photon_bounce_cap) {
+    count_event(PPM_COUNTER_PATHS_CUT);
+    return false;
+  }
+  path.skip = hit.triangle;
+  return scatter(path, surface, events, random);
+}
+
+void main() {
+  uint item = item_of_invocation(push.first);
+  if (item >= push.first + push.count) return;
+  RandomStream random = RandomStream(scene.seed, push.stream, push.pass, push.emit_first + item);
+  PhotonPath path;
+  if (push.generate != 0u) {
+    path = emit(random);
+  } else {
+    path = paths_in[item];
+    random.path = path.path;
+  }
+  bool alive = true;
+  for (uint bounce = 0u; bounce < push.bounces && alive; ++bounce) alive = advance(path, random);
+  if (alive) {
+    uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);
+    if (slot < push.path_capacity) paths_out[slot] = path;
+  }
+}

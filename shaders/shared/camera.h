@@ -1,0 +1,97 @@
+// The pinhole camera and the order in which pixels are worked off.
+#ifndef PPM_SHARED_CAMERA_H
+#define PPM_SHARED_CAMERA_H
+
+#include "shared/random.h"
+#include "shared/warp.h"
+
+PPM_NAMESPACE_BEGIN
+
+// Direction through a point of the film, in pixels from its top left corner. Unit.
+PPM_FN vec3 camera_direction(SceneConstants scene, vec2 film) {
+  float x = (2.0f * film.x / float(scene.width) - 1.0f) * scene.camera_tan_half_x;
+  float y = (1.0f - 2.0f * film.y / float(scene.height)) * scene.camera_tan_half_y;
+  return normalize(scene.camera_forward + scene.camera_right * x + scene.camera_up * y);
+}
+
+// Area of one pixel on the image plane at distance 1.
+PPM_FN float pixel_area(SceneConstants scene) {
+  return 4.0f * scene.camera_tan_half_x * scene.camera_tan_half_y /
+         (float(scene.width) * float(scene.height));
+}
+
+// Solid angle of the pixel seen along a direction.
+PPM_FN float pixel_solid_angle(SceneConstants scene, vec3 direction) {
+  float cosine = dot(direction, scene.camera_forward);
+  return pixel_area(scene) * cosine * cosine * cosine;
+}
+
+struct CameraImportance {
+  vec2 film;              // where the direction meets the film, in pixels
+  float importance;       // We of a film that averages over one pixel: 1 / (pixel area * cos^4); 0 if off the film
+  float pdf_solid_angle;  // with which one eye path through that pixel takes the direction: 1 / solid angle
+};
+
+// For paths that reach the camera from the scene; `direction` leaves the camera. (A lens connection multiplies
+// by the cosine at the camera: importance * cosine = pdf_solid_angle.)
+PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) {
+  CameraImportance result;
+  result.film = vec2(0.0f);
+  result.importance = 0.0f;
+  result.pdf_solid_angle = 0.0f;
+  float cosine = dot(direction, scene.camera_forward);
+  if (cosine <= 0.0f) return result;
+  float x = dot(direction, scene.camera_right) / (cosine * scene.camera_tan_half_x);
+  float y = dot(direction, scene.camera_up) / (cosine * scene.camera_tan_half_y);
+  if (abs(x) > 1.0f || abs(y) > 1.0f) return result;
+  result.film = vec2((x + 1.0f) * 0.5f * float(scene.width), (1.0f - y) * 0.5f * float(scene.height));
+  result.pdf_solid_angle = 1.0f / pixel_solid_angle(scene, direction);
+  result.importance = result.pdf_solid_angle / cosine;
+  return result;
+}
+
+// Van der Corput's sequence in base 2.
+PPM_FN float radical_inverse(uint index) {
+  uint bits = index;
+  bits = (bits << 16u) | (bits >> 16u);
+  bits = ((bits & 0x00ff00ffu) << 8u) | ((bits & 0xff00ff00u) >> 8u);
+  bits = ((bits & 0x0f0f0f0fu) << 4u) | ((bits & 0xf0f0f0f0u) >> 4u);
+  bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xccccccccu) >> 2u);
+  bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xaaaaaaaau) >> 1u);
+  return unit_from_word(bits);
+}
+
+// The film position of one of a pixel's `samples` eye paths, drawn from the filter, stratified by a jittered
+// Hammersley set: powers of two of samples fill every elementary interval; other numbers are shifted at random
+// on the torus, without which their strata would not cover the pixel evenly.
+// u: jitter (xy) and the pixel's shift (z).
+PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uint samples, vec3 u) {
+  float strata = float(samples);
+  float a = (float(sample_index) + u.x) / strata;
+  float b = radical_inverse(sample_index) + u.y / strata;
+  if ((samples & (samples - 1u)) != 0u) {
+    b += u.z;
+    b -= floor(b);
+  }
+  // Rounding must not reach 1.
+  a = min(a, 0.99999994f);
+  b = min(b, 0.99999994f);
+  return vec2(float(x) + 0.5f + sample_filter(filter_kind, a),
+              float(y) + 0.5f + sample_filter(filter_kind, b));
+}
+
+// Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), so that neighbours in
+// number are neighbours in the picture. Pixel number -> column and row.
+PPM_FN uvec2 pixel_position(uint number, uint width, uint height) {
+  uint band = number / (8u * width);
+  uint rows = min(8u, height - 8u * band);
+  uint rest = number - band * 8u * width;
+  uint block = rest / (8u * rows);
+  uint columns = min(8u, width - 8u * block);
+  rest -= block * 8u * rows;
+  return uvec2(8u * block + rest % columns, 8u * band + rest / columns);
+}
+
+PPM_NAMESPACE_END
+
+#endif  // PPM_SHARED_CAMERA_H
