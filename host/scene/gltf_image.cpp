@@ -1,0 +1,102 @@
+#include "gltf_image.hpp"
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+#include <memory>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#define STBI_NO_LINEAR
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb/stb_image.h>
+
+namespace ppm::scene::gltf {
+namespace {
+
+constexpr int kLargestSide = STBI_MAX_DIMENSIONS;
+constexpr int kChannels = 4;
+
+/// IEC 61966-2-1.
+double srgb_to_linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// Half floats for every code of an unsigned integer type.
+struct DecodingTable {
+  std::vector<std::uint16_t> color, alpha;
+
+  explicit DecodingTable(std::size_t codes) : color(codes), alpha(codes) {
+    for (std::size_t i = 0; i < codes; ++i) {
+      const double value = static_cast<double>(i) / static_cast<double>(codes - 1);
+      color[i] = glm::packHalf1x16(static_cast<float>(srgb_to_linear(value)));
+      alpha[i] = glm::packHalf1x16(static_cast<float>(value));
+    }
+  }
+};
+
+template <typename Code>
+std::vector<glm::u16vec4> decode_texels(const Code* codes, std::size_t texel_count) {
+  const DecodingTable table(std::size_t{std::numeric_limits<Code>::max()} + 1);
+  std::vector<glm::u16vec4> texels(texel_count);
+  for (std::size_t i = 0; i < texel_count; ++i) {
+    const Code* texel = codes + i * kChannels;
+    texels[i] = {table.color[texel[0]], table.color[texel[1]], table.color[texel[2]],
+                 table.alpha[texel[3]]};
+  }
+  return texels;
+}
+
+struct FreeStb {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
+  constexpr const char* kRemedy = "convert it to PNG or JPEG, or export it again";
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    image.fail("is larger than 2 GiB", "make it smaller");
+  }
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
+    image.fail("is not a PNG or JPEG image that can be read", kRemedy);
+  }
+  const std::uint64_t count =
+      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (width <= 0 || height <= 0 || width > kLargestSide || height > kLargestSide ||
+      count > texel_budget) {
+    image.fail(
+        "its " + std::to_string(width) + " x " + std::to_string(height) + " texels are too many",
+        "use smaller images");
+  }
+  const auto as_image = [&](auto* codes) {
+    const std::unique_ptr<void, FreeStb> owner(codes);
+    if (codes == nullptr) {
+      image.fail(std::string("is corrupt: ") + stbi_failure_reason(), kRemedy);
+    }
+    return Image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                 decode_texels(codes, count)};
+  };
+  if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
+    return as_image(
+        stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
+  }
+  return as_image(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
+}
+
+}  // namespace
+
+Image decode_image(const Element& image, Buffers& buffers, std::uint64_t texel_budget) {
+  if (const std::optional<Element> uri = image.find("uri")) {
+    const Bytes bytes = buffers.load_uri(*uri, std::numeric_limits<std::uint64_t>::max());
+    return decode(image, bytes, texel_budget);
+  }
+  if (!image.find("bufferView")) image.fail("has neither uri nor bufferView", "add the image");
+  return decode(image, buffers.view(image.follow("bufferView", "bufferViews")), texel_budget);
+}
+
+}  // namespace ppm::scene::gltf

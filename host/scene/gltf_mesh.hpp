@@ -1,0 +1,57 @@
+// Meshes to triangles of the working frame.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <vector>
+
+#include "gltf_accessor.hpp"
+#include "scene.hpp"
+
+namespace ppm::scene::gltf {
+
+/// The materials that triangles use, in the order of their first use; nothing stands for glTF's
+/// default.
+class MaterialUses {
+ public:
+  /// The index in Scene::materials of the glTF material `index`.
+  std::uint32_t use(std::optional<std::uint32_t> index);
+  const std::vector<std::optional<std::uint32_t>>& in_order() const { return in_order_; }
+
+ private:
+  std::map<std::optional<std::uint32_t>, std::uint32_t> positions_;
+  std::vector<std::optional<std::uint32_t>> in_order_;
+};
+
+enum class Topology { triangles, strip, fan };
+
+/// A primitive whose accessors agree with each other and whose indices are all in range.
+struct Primitive {
+  Element element;
+  Topology topology = Topology::triangles;
+  Accessor position;
+  std::optional<Accessor> normal, texcoord, color, indices;
+  std::uint64_t triangle_count = 0;
+  std::uint32_t material = 0;
+};
+
+/// An axis-aligned box in world space, empty at first.
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+/// The primitives of a mesh that consist of triangles; others are skipped with a warning.
+/// Throws Failure for malformed ones and for positions that are not finite.
+std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
+                                       MaterialUses& materials);
+
+/// Extends `box` by the corners of the primitive's triangles in the world.
+void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world);
+
+/// Appends the primitive's triangles to `triangles`. Returns how many were left out because they
+/// have no area in single precision.
+std::uint64_t bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
+                   std::vector<Triangle>& triangles);
+
+}  // namespace ppm::scene::gltf

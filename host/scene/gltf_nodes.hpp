@@ -1,0 +1,25 @@
+// The scene graph, flattened: every node with its transform to the world.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gltf_json.hpp"
+
+namespace ppm::scene::gltf {
+
+/// A node and its transform to world space (affine, finite, maybe singular).
+struct Placement {
+  Element node;
+  glm::dmat4 to_world;
+};
+
+/// The unit vector along `v`, or nothing where `v` is zero or not finite.
+std::optional<glm::dvec3> unit(glm::dvec3 v);
+
+/// The nodes of the default scene (the first if none is named; all root nodes if there is none),
+/// parents first. Throws Failure for cycles, nodes with two parents and transforms that are not
+/// finite.
+std::vector<Placement> place_nodes(Origin& origin);
+
+}  // namespace ppm::scene::gltf

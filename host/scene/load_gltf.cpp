@@ -1,0 +1,193 @@
+#include "load_gltf.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "failure.hpp"
+#include "gltf_camera.hpp"
+#include "gltf_light.hpp"
+#include "gltf_material.hpp"
+#include "gltf_mesh.hpp"
+
+namespace ppm::scene {
+namespace {
+
+using namespace gltf;
+
+constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 25;  // 4.6 GB of them
+constexpr int kExtremeExponent = 40;  // extents from 1e-12 to 1e12 keep all products in range
+
+/// A mesh's primitives where a node puts them.
+struct Instance {
+  const std::vector<Primitive>* primitives;
+  glm::dmat4 to_world;
+};
+
+/// The meshes that nodes use, each read once. Element addresses in a map are stable.
+using Meshes = std::map<std::uint32_t, std::vector<Primitive>>;
+
+void check_version(const Element& root) {
+  const Element asset = root.require("asset");
+  const Element version = asset.require("version");
+  const std::optional<Element> least = asset.find("minVersion");
+  if (!version.text().starts_with("2.") || (least && least->text() != "2.0")) {
+    version.fail("is not 2.0 but " + printable(version.text()), "export the scene as glTF 2.0");
+  }
+}
+
+void warn_of_unread(const Element& root) {
+  const auto animations = root.find("animations");
+  if (animations && animations->size() > 0)
+    animations->warn("animations", "animations are ignored");
+}
+
+std::vector<Instance> place_meshes(const std::vector<Placement>& placements, Buffers& buffers,
+                                   MaterialUses& materials, Meshes& meshes) {
+  std::vector<Instance> instances;
+  for (const Placement& placement : placements) {
+    const Element& node = placement.node;
+    if (node.find("skin")) node.warn("skins", "skins are ignored");
+    if (!node.find("mesh")) continue;
+    const std::uint32_t index = node.index("mesh", "meshes");
+    auto mesh = meshes.find(index);
+    if (mesh == meshes.end()) {
+      const Element element = node.follow("mesh", "meshes");
+      mesh = meshes.emplace(index, read_primitives(element, buffers, materials)).first;
+    }
+    instances.push_back({&mesh->second, placement.to_world});
+  }
+  return instances;
+}
+
+std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, const Element& root) {
+  std::uint64_t count = 0;
+  for (const Instance& instance : instances) {
+    for (const Primitive& primitive : *instance.primitives) {
+      count += primitive.triangle_count;
+      if (count > kMostTriangles) {
+        root.fail("the scene has more than " + std::to_string(kMostTriangles) + " triangles",
+                  "simplify its meshes or use fewer instances");
+      }
+    }
+  }
+  if (count == 0) root.fail("the scene has no triangles", "export some geometry");
+  return count;
+}
+
+Frame frame_of(const std::vector<Instance>& instances, const Element& root) {
+  Box box;
+  for (const Instance& instance : instances) {
+    for (const Primitive& primitive : *instance.primitives) {
+      extend(box, primitive, instance.to_world);
+    }
+  }
+  const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
+  const double extent = std::max({half.x, half.y, half.z});
+  int exponent = 0;
+  const double mantissa = std::frexp(extent, &exponent);  // in [0.5, 1), or 0
+  if (mantissa == 0.5) --exponent;                        // so that the largest lies in (0.5, 1]
+  if (mantissa == 0.0) root.fail("the scene has no extent: all vertices coincide", "scale it up");
+  if (std::abs(exponent) > kExtremeExponent) {
+    root.fail("the scene's extent is beyond 1e-12 to 1e12", "scale it");
+  }
+  return {0.5 * box.low + 0.5 * box.high, std::ldexp(1.0, -exponent)};
+}
+
+void bake_triangles(const std::vector<Instance>& instances, const Element& root, Scene& scene,
+                    const Log& log) {
+  scene.triangles.reserve(checked_triangle_count(instances, root));
+  scene.frame = frame_of(instances, root);
+  std::uint64_t left_out = 0;
+  for (const Instance& instance : instances) {
+    for (const Primitive& primitive : *instance.primitives) {
+      left_out += bake(primitive, instance.to_world, scene.frame, scene.triangles);
+    }
+  }
+  if (left_out > 0) {
+    log.note(scene.file + ": " + std::to_string(left_out) +
+             " triangles without area were left out");
+  }
+  if (scene.triangles.empty()) {
+    root.fail("no triangle of the scene has any area", "export some geometry");
+  }
+}
+
+void measure_bounds(Scene& scene) {
+  scene.bounds_min = scene.bounds_max = scene.triangles.front().corners[0].position;
+  for (const Triangle& triangle : scene.triangles) {
+    for (const Corner& corner : triangle.corners) {
+      scene.bounds_min = glm::min(scene.bounds_min, corner.position);
+      scene.bounds_max = glm::max(scene.bounds_max, corner.position);
+    }
+  }
+}
+
+void read_materials(const MaterialUses& uses, Origin& origin, Buffers& buffers, Scene& scene) {
+  MaterialReader reader(buffers, scene.textures);
+  const std::optional<Element> list = top_level(origin, "materials");
+  for (const std::optional<std::uint32_t>& index : uses.in_order()) {
+    if (index) {
+      scene.materials.push_back(reader.read((*list)[*index], scene.frame.scale));
+    } else {
+      scene.materials.push_back({});
+      scene.materials.back().name = "default";
+    }
+  }
+}
+
+Scene read_scene(const std::filesystem::path& file, Log& log) {
+  const Container container = read_container(file);
+  const nlohmann::json document = parse_json(container.json, file.string());
+  Origin origin{file.string(), &document, &log, {}};
+  const Element root(origin, document, "");
+  check_version(root);
+  check_extensions(origin);
+  warn_of_unread(root);
+
+  Buffers buffers(container.binary, file.parent_path());
+  const std::vector<Placement> placements = place_nodes(origin);
+  MaterialUses uses;
+  Meshes meshes;
+  const std::vector<Instance> instances = place_meshes(placements, buffers, uses, meshes);
+
+  Scene scene;
+  scene.file = origin.file;
+  bake_triangles(instances, root, scene, log);
+  measure_bounds(scene);
+  read_materials(uses, origin, buffers, scene);
+  for (const Placement& placement : placements) {
+    if (auto light = read_light(placement, scene.frame)) scene.punctual_lights.push_back(*light);
+    if (auto camera = read_camera(placement, scene.frame)) scene.cameras.push_back(*camera);
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene load_gltf(const std::filesystem::path& file, Log& log) {
+  try {
+    return read_scene(file, log);
+  } catch (const std::bad_alloc&) {
+    throw Failure(file.string(), "", "needs more memory than there is", "use a smaller scene");
+  }
+}
+
+Camera frame_camera(const Scene& scene) {
+  const glm::dvec3 low(scene.bounds_min), high(scene.bounds_max);
+  const double radius = 0.5 * glm::length(high - low);
+  Camera camera;
+  camera.name = "automatic";
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(0.0, 0.35, 1.0));
+  // A sphere touches the upper and lower edge when seen from radius / sin(fov / 2); a tenth is left
+  // as margin.
+  camera.position = 0.5 * (low + high) + direction * (1.1 * radius / std::sin(0.5 * camera.yfov));
+  camera.forward = -direction;
+  camera.right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0)));
+  camera.up = glm::cross(camera.right, camera.forward);
+  return camera;
+}
+
+}  // namespace ppm::scene
