@@ -129,11 +129,17 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-bool matches(const DeviceDescription& device, const std::string& selector) {
-  const bool is_number = std::all_of(selector.begin(), selector.end(),
-                                     [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (is_number && selector == std::to_string(device.index)) return true;
-  return lower(device.name).find(lower(selector)) != std::string::npos;
+// An index wins over names that contain it.
+std::vector<const PhysicalDevice*> matches(const std::vector<PhysicalDevice>& devices,
+                                           const std::string& selector) {
+  std::vector<const PhysicalDevice*> named;
+  for (const PhysicalDevice& device : devices) {
+    if (selector == std::to_string(device.description.index)) return {&device};
+    if (lower(device.description.name).find(lower(selector)) != std::string::npos) {
+      named.push_back(&device);
+    }
+  }
+  return named;
 }
 
 std::string list(const std::vector<PhysicalDevice>& devices) {
@@ -190,12 +196,12 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices,
                              const std::string& selector) {
   const PhysicalDevice* best = nullptr;
   const PhysicalDevice* hindered = nullptr;
-  for (const PhysicalDevice& device : devices) {
-    if (!selector.empty() && !matches(device.description, selector)) continue;
-    if (!device.description.obstacles.empty()) {
-      if (!hindered) hindered = &device;
-    } else if (!best || rank(device.properties.deviceType) < rank(best->properties.deviceType)) {
-      best = &device;
+  for (const PhysicalDevice* device : matches(devices, selector)) {
+    const int place = rank(device->properties.deviceType);
+    if (!device->description.obstacles.empty()) {
+      if (!hindered) hindered = device;
+    } else if (!best || place < rank(best->properties.deviceType)) {
+      best = device;
     }
   }
   if (best) return *best;

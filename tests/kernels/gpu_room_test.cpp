@@ -1,0 +1,327 @@
+// The room that runs kernels: copies, bindings, constants, ranges of items.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "buffer.hpp"
+#include "device_fixture.hpp"
+#include "implementation.hpp"
+#include "kernel.hpp"
+#include "ppm_gpu_test_shaders.hpp"
+#include "recorder.hpp"
+
+namespace ppm::tests {
+namespace {
+
+using gpu::BindingTable;
+using gpu::Buffer;
+using gpu::Kernel;
+using gpu::Recorder;
+using gpu::Usage;
+
+struct RangePush {
+  std::uint32_t first = 0, count = 0;
+};
+
+struct StepPush {
+  std::uint32_t first = 0, count = 0, items = 0;
+};
+
+std::vector<std::uint32_t> random_words(std::size_t count, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint32_t> words(count);
+  std::generate(words.begin(), words.end(), random);
+  return words;
+}
+
+class GpuRoom : public DeviceTest {};
+
+// How often each of `count` items was visited, and the words of a margin behind them.
+std::vector<std::uint32_t> visits(gpu::Device& device, const Kernel& kernel, std::uint64_t count) {
+  constexpr std::uint64_t kMargin = 256;
+  const std::uint64_t words = count + kMargin;
+  Buffer buffer(device, "visits", words * 4, Usage::storage);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, buffer);
+  device.run([&](Recorder& recorder) {
+    recorder.fill(buffer, 0, words * 4);
+    recorder.dispatch(kernel, table, RangePush{}, count);
+  });
+  return buffer.download<std::uint32_t>(words);
+}
+
+TEST_F(GpuRoom, VisitsEveryItemOnce) {
+  const Kernel kernel(device(), shaders::gpu_count);
+  for (const std::uint64_t count : {0u, 1u, 63u, 64u, 65u, 1023u, 1025u, 65535u * 64u + 1u}) {
+    std::vector<std::uint32_t> expected(count, 1);
+    const std::vector<std::uint32_t> seen = visits(device(), kernel, count);
+    expected.resize(seen.size(), 0);
+    EXPECT_TRUE(seen == expected) << count << " items";
+  }
+}
+
+TEST_F(GpuRoom, BytesComeBackAsTheyWent) {
+  for (const bool staged : {false, true}) {
+    device().implementation().maps_device_memory = !staged;
+    for (const std::size_t size : {std::size_t{1}, std::size_t{16}, (std::size_t{16} << 20) + 5}) {
+      Buffer buffer(device(), "bytes", size, Usage::storage);
+      std::vector<std::uint32_t> words = random_words(size / 4 + 1, 1);
+      std::vector<std::byte> back(size);
+      buffer.upload(words.data(), size);
+      buffer.download(back.data(), size);
+      EXPECT_EQ(std::memcmp(words.data(), back.data(), size), 0)
+          << size << " bytes, staged: " << staged;
+    }
+  }
+  device().implementation().maps_device_memory = true;
+}
+
+TEST_F(GpuRoom, PartsOfABufferAreItsOwn) {
+  for (const bool staged : {false, true}) {
+    device().implementation().maps_device_memory = !staged;
+    std::vector<std::uint32_t> expected = random_words(1000, 2);
+    Buffer buffer =
+        gpu::make_buffer<std::uint32_t>(device(), "parts", expected, Usage::storage_and_texels);
+    const std::vector<std::uint32_t> part = random_words(10, 3);
+    buffer.upload(part.data(), part.size() * 4, 77 * 4);
+    std::copy(part.begin(), part.end(), expected.begin() + 77);
+    std::vector<std::uint32_t> back(500);
+    buffer.download(back.data(), back.size() * 4, 50 * 4);
+    EXPECT_TRUE(std::equal(back.begin(), back.end(), expected.begin() + 50));
+  }
+  device().implementation().maps_device_memory = true;
+}
+
+TEST_F(GpuRoom, SizesAreRoundedUpAndNeverZero) {
+  EXPECT_EQ(Buffer(device(), "none", 0, Usage::storage).bytes(), 16u);
+  EXPECT_EQ(Buffer(device(), "odd", 17, Usage::storage).bytes(), 20u);
+  EXPECT_EQ(Buffer(device(), "odd texels", 17, Usage::texels).bytes(), 32u);
+}
+
+TEST_F(GpuRoom, TexelsStorageAndUniformsHoldTheSameBytes) {
+  constexpr std::uint32_t kItems = 1000;
+  const std::vector<std::uint32_t> words = random_words(4 * kItems, 4);
+  const std::uint32_t constants[4] = {11, 22, 33, 3};
+  const Kernel kernel(device(), shaders::gpu_read);
+  Buffer texels = gpu::make_buffer<std::uint32_t>(device(), "texels", words, Usage::texels);
+  Buffer storage = gpu::make_buffer<std::uint32_t>(device(), "words", words, Usage::storage);
+  Buffer uniform = gpu::make_buffer<std::uint32_t>(device(), "uniform", constants, Usage::uniform);
+  Buffer results(device(), "results", kItems * 48, Usage::storage);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, texels);
+  table.set(PPM_BIND_TEST_1, storage);
+  table.set(PPM_BIND_TEST_2, results);
+  table.set(PPM_BIND_TEST_3, uniform);
+  device().run([&](Recorder& recorder) { recorder.dispatch(kernel, table, RangePush{}, kItems); });
+
+  std::vector<std::uint32_t> expected;
+  for (std::size_t i = 0; i < words.size(); i += 4) {
+    const std::uint32_t* const w = &words[i];
+    expected.insert(expected.end(), {w[0], w[1], w[2], w[3], w[0], w[1], w[2], w[3], w[0] * 3 + 11,
+                                     w[1] * 3 + 22, w[2] * 3 + 33, w[3]});
+  }
+  EXPECT_TRUE(results.download<std::uint32_t>(expected.size()) == expected);
+}
+
+TEST_F(GpuRoom, StorageWrittenInOneDispatchIsReadAsTexelsInTheNext) {
+  constexpr std::uint32_t kTexels = 5000, kWords = 4 * kTexels;
+  const Kernel step(device(), shaders::gpu_step), read(device(), shaders::gpu_read);
+  const std::vector<std::uint32_t> words = random_words(kWords, 5);
+  const std::uint32_t constants[4] = {0, 0, 0, 1};
+  Buffer from = gpu::make_buffer<std::uint32_t>(device(), "from", words, Usage::storage);
+  Buffer uniform = gpu::make_buffer<std::uint32_t>(device(), "uniform", constants, Usage::uniform);
+  Buffer both(device(), "both", kWords * 4, Usage::storage_and_texels);
+  Buffer results(device(), "results", kTexels * 48, Usage::storage);
+  BindingTable step_table, read_table;
+  step_table.set(PPM_BIND_TEST_0, from);
+  step_table.set(PPM_BIND_TEST_1, both);
+  read_table.set(PPM_BIND_TEST_0, both);
+  read_table.set(PPM_BIND_TEST_1, both);
+  read_table.set(PPM_BIND_TEST_2, results);
+  read_table.set(PPM_BIND_TEST_3, uniform);
+  device().run([&](Recorder& recorder) {
+    recorder.dispatch(step, step_table, StepPush{.items = kWords}, kWords);
+    recorder.dispatch(read, read_table, RangePush{}, kTexels);
+  });
+  const auto seen = results.download<std::uint32_t>(kTexels * 12);
+  for (std::uint32_t i = 0; i < kWords; ++i) {
+    ASSERT_EQ(seen[i / 4 * 12 + i % 4], words[(i + 1) % kWords] + 1) << "word " << i;
+  }
+}
+
+// After k steps, word i holds what word i + k held, plus k: every step must see all of the one
+// before. 3000 steps are more commands than one submission takes.
+TEST_F(GpuRoom, CommandsSeeTheResultsOfThoseBefore) {
+  constexpr std::uint32_t kItems = 777, kSteps = 3000;
+  const Kernel kernel(device(), shaders::gpu_step);
+  const std::vector<std::uint32_t> words = random_words(kItems, 6);
+  Buffer a = gpu::make_buffer<std::uint32_t>(device(), "a", words, Usage::storage);
+  Buffer b(device(), "b", kItems * 4, Usage::storage);
+  BindingTable forth, back;
+  forth.set(PPM_BIND_TEST_0, a);
+  forth.set(PPM_BIND_TEST_1, b);
+  back.set(PPM_BIND_TEST_0, b);
+  back.set(PPM_BIND_TEST_1, a);
+  device().run([&](Recorder& recorder) {
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      recorder.dispatch(kernel, i % 2 == 0 ? forth : back, StepPush{.items = kItems}, kItems);
+    }
+  });
+  const auto seen = a.download<std::uint32_t>(kItems);
+  for (std::uint32_t i = 0; i < kItems; ++i) {
+    ASSERT_EQ(seen[i], words[(i + kSteps) % kItems] + kSteps) << "word " << i;
+  }
+}
+
+// 40 reads of 64 KiB are more than one submission gives back.
+TEST_F(GpuRoom, ReadsSeeTheBufferAsItWasThen) {
+  constexpr std::uint32_t kReads = 40, kWords = 16384;
+  Buffer a(device(), "a", kWords * 4, Usage::storage), b(device(), "b", kWords * 4, Usage::storage);
+  std::vector<std::vector<std::uint32_t>> results(kReads, std::vector<std::uint32_t>(kWords));
+  device().run([&](Recorder& recorder) {
+    for (std::uint32_t i = 0; i < kReads; ++i) {
+      recorder.fill(a, 1000 + i, kWords * 4);
+      recorder.fill(a, i, 8, 40);
+      recorder.copy(a, b, kWords * 4 - 4, 4, 0);
+      recorder.read(b, results[i].data(), kWords * 4 - 4);
+    }
+  });
+  for (std::uint32_t i = 0; i < kReads; ++i) {
+    std::vector<std::uint32_t> expected(kWords, 1000 + i);
+    expected[9] = expected[10] = i;
+    expected[kWords - 1] = 0;
+    ASSERT_TRUE(results[i] == expected) << "read " << i;
+  }
+}
+
+struct AllMembersPush {
+  std::uint32_t first = 0, count = 0;
+  std::int32_t sign = 0;
+  float direction[3];
+  float position[3], words[2];
+  std::uint32_t pair[2];
+  float rows[9];
+  float turn[9];
+  std::uint32_t last = 0;
+};
+static_assert(sizeof(AllMembersPush) == 128);
+
+TEST_F(GpuRoom, PushAndSpecialisationConstantsArrive) {
+  std::vector<std::uint32_t> expected = random_words(32, 7);
+  // Bit patterns must be ordinary floats, which devices pass on unchanged.
+  for (std::size_t i = 3; i < 31; ++i) expected[i] = (expected[i] & 0x007fffffu) | 0x3f800000u;
+  std::array<std::uint32_t, 32> block;
+  std::copy_n(expected.begin(), block.size(), block.begin());
+  const auto push = std::bit_cast<AllMembersPush>(block);
+  expected[0] = 0;
+  expected[1] = 16;
+  expected.insert(expected.end(), {1234567890u, std::bit_cast<std::uint32_t>(0.375f), 1u});
+
+  const Kernel kernel(device(), shaders::gpu_push,
+                      {{3, 1234567890u}, {5, std::bit_cast<std::uint32_t>(0.375f)}, {8, 1}});
+  Buffer results(device(), "results", expected.size() * 4, Usage::storage);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, results);
+  device().run([&](Recorder& recorder) { recorder.dispatch(kernel, table, push, 16); });
+  EXPECT_EQ(results.download<std::uint32_t>(expected.size()), expected);
+
+  const Kernel defaults(device(), shaders::gpu_push);
+  device().run([&](Recorder& recorder) { recorder.dispatch(defaults, table, push, 16); });
+  std::copy_n(std::vector<std::uint32_t>{7, std::bit_cast<std::uint32_t>(0.5f), 0}.begin(), 3,
+              expected.end() - 3);
+  EXPECT_EQ(results.download<std::uint32_t>(expected.size()), expected);
+}
+
+TEST(ItemsPerDispatch, KeepsWithinTheTimeAndTheGroups) {
+  using gpu::items_per_dispatch;
+  // Unknown kernels start with at most 16384 items, cut evenly: 100000 / 7 = 14286, in whole groups
+  // 14336.
+  EXPECT_EQ(items_per_dispatch(100000, 64, 0.0, 50.0), 14336u);
+  EXPECT_EQ(items_per_dispatch(100, 64, 0.0, 50.0), 128u);
+  // 1 us an item: 50 ms hold 50000.
+  EXPECT_EQ(items_per_dispatch(1000000, 1, 1e-6, 50.0), 50000u);
+  // Never below 1024 items, however slow they are; never above 65535 groups, however fast:
+  // 2^31 items are 513 parts of 4186128, or 65409 groups.
+  EXPECT_EQ(items_per_dispatch(1024 * 64, 64, 1.0, 0.001), 1024u);
+  EXPECT_EQ(items_per_dispatch(std::uint64_t{1} << 31, 64, 1e-15, 50.0), 65409u * 64u);
+  EXPECT_EQ(items_per_dispatch(65535u * 64u, 64, 1e-15, 50.0), 65535u * 64u);
+}
+
+// A device that gives a dispatch next to no time: the same visits in ranges of 1024.
+TEST_F(GpuRoom, CutsByTimeChangeNoResult) {
+  gpu::Device hasty(
+      {.selector = device().description().name, .validation = true, .dispatch_milliseconds = 1e-6});
+  const Kernel kernel(hasty, shaders::gpu_count);
+  constexpr std::uint64_t kCount = 100000;
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<std::uint32_t> seen = visits(hasty, kernel, kCount);
+    EXPECT_EQ(std::count(seen.begin(), seen.begin() + kCount, 1u), std::ptrdiff_t{kCount});
+    EXPECT_EQ(std::count(seen.begin() + kCount, seen.end(), 0u), 256);
+  }
+  // First 7 dispatches by the first guess, then 98 of at most 1024 items.
+  EXPECT_EQ(hasty.times().at("gpu_count").dispatches, 7u + 98u);
+  EXPECT_EQ(hasty.times().at("copy").dispatches, 2u);
+}
+
+TEST_F(GpuRoom, TimesAddUpToNoMoreThanTheClock) {
+  const Kernel kernel(device(), shaders::gpu_count);
+  const auto seconds = [&] {
+    double sum = 0.0;
+    for (const auto& [name, time] : device().times()) sum += time.seconds;
+    return sum;
+  };
+  const double before = seconds();
+  const auto start = std::chrono::steady_clock::now();
+  visits(device(), kernel, 1 << 22);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  EXPECT_GT(seconds() - before, 0.0);
+  EXPECT_LE(seconds() - before, wall.count());
+}
+
+TEST_F(GpuRoom, MemoryAccountReturnsToWhereItWas) {
+  Buffer(device(), "first", 16, Usage::storage).download<std::uint32_t>(1);
+  const std::uint64_t before = device().allocated_bytes();
+  {
+    const Buffer a(device(), "a", 1 << 20, Usage::storage);
+    Buffer b(device(), "b", 1 << 20, Usage::texels);
+    EXPECT_GE(device().allocated_bytes(), before + (2u << 20));
+    Buffer moved = std::move(b);
+    EXPECT_GE(device().allocated_bytes(), before + (2u << 20));
+    moved = Buffer(device(), "c", 16, Usage::texels);
+    EXPECT_LT(device().allocated_bytes(), before + (2u << 20));
+  }
+  EXPECT_EQ(device().allocated_bytes(), before);
+  EXPECT_GE(device().peak_bytes(), before + (2u << 20));
+}
+
+using GpuRoomDeathTest = GpuRoom;
+
+TEST_F(GpuRoomDeathTest, AMissingOrUnfitBufferIsNamed) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const Kernel kernel(device(), shaders::gpu_step);
+  Buffer storage(device(), "a storage", 64, Usage::storage);
+  Buffer texels(device(), "a texel buffer", 64, Usage::texels);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, storage);
+  const auto dispatch = [&](auto push) {
+    device().run([&](Recorder& recorder) { recorder.dispatch(kernel, table, push, 16); });
+  };
+  EXPECT_DEATH(dispatch(StepPush{}), "kernel gpu_step, binding 41: no buffer is bound");
+  table.set(PPM_BIND_TEST_1, texels);
+  EXPECT_DEATH(dispatch(StepPush{}), "binding 41: a texel buffer was made for another use");
+  table.set(PPM_BIND_TEST_1, storage);
+  EXPECT_DEATH(dispatch(RangePush{}), "push block of 12 bytes, not 8");
+  EXPECT_DEATH(storage.download<std::uint32_t>(17), "a storage has 64 bytes, asked for 68");
+  EXPECT_DEATH(device().run([&](Recorder& recorder) { recorder.fill(storage, 0, 64, 4); }),
+               "a storage has 64 bytes, asked for 64 from 4 on");
+}
+
+}  // namespace
+}  // namespace ppm::tests
