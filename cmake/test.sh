@@ -9,10 +9,6 @@ if command -v clang-format >/dev/null; then
   git ls-files '*.cpp' '*.hpp' '*.h' | xargs clang-format --dry-run -Werror
 fi
 
-# The Vulkan driver keeps a few kilobytes to the end, which is no leak of ours (and its frames cannot be named
-# in a suppression); all else that the sanitizers find is an error.
-export ASAN_OPTIONS="detect_leaks=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
-
 for preset in ci asan; do
   echo "== $preset"
   cmake --preset $preset
