@@ -106,6 +106,7 @@ Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, Usage usag
               &self.view);
 }
 
+Buffer::Buffer() = default;
 Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;

@@ -19,12 +19,12 @@ enum class Usage {
   uniform,            ///< a uniform block
 };
 
-/// Device-local memory, or host memory where the device's is full (the first such fallback is noted by
-/// Device::implementation). Zero-sized requests get 16 bytes. Movable; freed on destruction.
+/// Device-local memory, or host memory where the device's is full (the first such fallback is told by
+/// Device::memory_note). Zero-sized requests get 16 bytes. Movable; freed on destruction.
 /// Throws Failure that names the buffer, its size and what would mend it when memory or a limit is short.
 class Buffer {
  public:
-  Buffer() = default;
+  Buffer();
   Buffer(Device& device, std::string name, std::uint64_t bytes, Usage usage);
   ~Buffer();
   Buffer(Buffer&&) noexcept;

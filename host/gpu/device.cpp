@@ -160,6 +160,9 @@ std::uint64_t Device::allocated_bytes() const {
 std::uint64_t Device::peak_bytes() const {
   return implementation_->peak_bytes;
 }
+const std::string& Device::memory_note() const {
+  return implementation_->memory_note;
+}
 std::uint64_t Device::validation_messages() const {
   return implementation_->instance->messages();
 }

@@ -62,6 +62,8 @@ class Device {
 
   std::uint64_t allocated_bytes() const;  ///< now, by our own account
   std::uint64_t peak_bytes() const;
+  /// Tells of the first buffer that went to host memory because the device's was full; empty: none did.
+  const std::string& memory_note() const;
   /// Messages of validation so far; 0 without validation.
   std::uint64_t validation_messages() const;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -205,6 +206,34 @@ TEST(DeviceChoice, AnIndexIsNoPartOfAName) {
       made_up(1, "Soft Renderer", VK_PHYSICAL_DEVICE_TYPE_CPU),
   };
   EXPECT_EQ(choose(devices, "1").description.index, 1u);
+}
+
+// A variable of the environment while it lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~Environment() { before_.empty() ? unsetenv(name_) : setenv(name_, before_.c_str(), 1); }
+
+ private:
+  const char* name_;
+  std::string before_;
+};
+
+TEST(DeviceList, WithoutADriverSaysWhatToInstall) {
+  const Environment new_name("VK_DRIVER_FILES", "/nonexistent.json");
+  const Environment old_name("VK_ICD_FILENAMES", "/nonexistent.json");
+  const std::string message = message_of([] { gpu::list_devices(); });
+  EXPECT_TRUE(contains(message, "mesa-vulkan-drivers")) << message;
+}
+
+TEST(DeviceList, WithoutTheLayerSaysWhatToInstall) {
+  const Environment layers("VK_LAYER_PATH", "/nonexistent");
+  const std::string message =
+      message_of([] { gpu::Device device({.selector = "", .validation = true}); });
+  EXPECT_TRUE(contains(message, "vulkan-validationlayers")) << message;
 }
 
 TEST(DeviceList, SaysWhatThereIs) {
