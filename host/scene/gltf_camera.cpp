@@ -1,8 +1,14 @@
 #include "gltf_camera.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace ppm::scene::gltf {
+namespace {
+
+constexpr double kLargestAspect = 1e4;
+
+}  // namespace
 
 std::optional<Camera> read_camera(const Placement& placement, const Frame& frame) {
   const Element& node = placement.node;
@@ -20,7 +26,9 @@ std::optional<Camera> read_camera(const Placement& placement, const Frame& frame
     perspective.require("yfov").fail("is not between 0 and pi", "write the full angle in radians");
   }
   if (const auto aspect = perspective.find("aspectRatio")) {
-    if (!(aspect->number() > 0.0)) aspect->fail("is not positive", "write width / height");
+    if (!(aspect->number() >= 1.0 / kLargestAspect && aspect->number() <= kLargestAspect)) {
+      aspect->fail("is not the aspect of any picture", "write width / height");
+    }
     camera.aspect = aspect->number();
   }
   const auto forward = unit(-glm::dvec3(placement.to_world[2]));
@@ -31,6 +39,9 @@ std::optional<Camera> read_camera(const Placement& placement, const Frame& frame
     return std::nullopt;
   }
   camera.position = frame.to_working(glm::dvec3(placement.to_world[3]));
+  if (!std::isfinite(glm::dot(camera.position, camera.position))) {
+    node.fail("its camera is too far away", "move it closer");
+  }
   camera.forward = *forward;
   camera.right = *right;
   camera.up = glm::cross(camera.right, camera.forward);

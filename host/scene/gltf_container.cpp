@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
+// What a .glb can hold; sparse files would otherwise claim any amount of memory.
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 32;
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;  // "BIN\0"
 
@@ -31,6 +33,10 @@ std::optional<Bytes> read_file(const std::filesystem::path& file, std::uint64_t 
   const std::uint64_t size = std::filesystem::file_size(file, code);
   if (!stream || code) {
     error = "cannot be opened for reading";
+    return std::nullopt;
+  }
+  if (size > kLargestFile) {
+    error = "is larger than 4 GiB";
     return std::nullopt;
   }
   Bytes bytes(std::min(size, limit));

@@ -2,10 +2,26 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <memory>
 
+namespace {
+
+// Compressed data may unfold to any size, whatever dimensions the image states; what the decoder
+// asks for in one piece is bounded by this. A thread's own, as two may decode at once.
+thread_local std::size_t allocation_limit = 0;
+
+void* limited_realloc(void* memory, std::size_t size) {
+  return size > allocation_limit ? nullptr : std::realloc(memory, size);
+}
+
+}  // namespace
+
+#define STBI_MALLOC(size) limited_realloc(nullptr, size)
+#define STBI_REALLOC(memory, size) limited_realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -61,6 +77,7 @@ Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
     image.fail("is larger than 2 GiB", "make it smaller");
   }
   const int size = static_cast<int>(bytes.size());
+  allocation_limit = 65536;
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
     image.fail("is not a PNG or JPEG image that can be read", kRemedy);
@@ -73,6 +90,11 @@ Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
         "its " + std::to_string(width) + " x " + std::to_string(height) + " texels are too many",
         "use smaller images");
   }
+  // Four channels of 16 bits, twice for the decoder's copies, sides rounded up to JPEG's largest
+  // blocks; and the compressed data, whose buffer grows by doubling.
+  allocation_limit =
+      16 * (static_cast<std::size_t>(width) + 64) * (static_cast<std::size_t>(height) + 64) +
+      4 * bytes.size();
   const auto as_image = [&](auto* codes) {
     const std::unique_ptr<void, FreeStb> owner(codes);
     if (codes == nullptr) {

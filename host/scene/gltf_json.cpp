@@ -14,6 +14,7 @@ namespace {
 constexpr double kLargestWhole = 281474976710656.0;  // 2^48
 constexpr int kDeepestNesting = 256;                 // glTF itself needs about ten
 constexpr std::size_t kLongestPrintable = 100;
+constexpr std::size_t kMostListed = 10;
 
 std::string quoted(std::string_view key) {
   return "\"" + std::string(key) + "\"";
@@ -251,11 +252,16 @@ void check_extensions(Origin& origin) {
   if (const std::optional<Element> used = root.find("extensionsUsed")) {
     for (std::size_t i = 0; i < used->size(); ++i) names.insert((*used)[i].text());
   }
+  std::erase_if(names, [](const std::string& name) { return is_known_extension(name); });
+  if (names.empty()) return;
+  std::string list;
+  std::size_t listed = 0;
   for (const std::string& name : names) {
-    if (is_known_extension(name)) continue;
-    origin.log->warn(origin.file + ": the extension " + printable(name) +
-                     " is not known and was ignored");
+    if (++listed > kMostListed) break;
+    list += (list.empty() ? "" : ", ") + printable(name);
   }
+  if (names.size() > kMostListed) list += " and more";
+  origin.log->warn(origin.file + ": unknown extensions are ignored: " + list);
 }
 
 }  // namespace ppm::scene::gltf

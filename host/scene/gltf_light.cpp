@@ -39,9 +39,10 @@ void read_cone(const Element& element, PunctualLight& light) {
     outer = spot->number_or("outerConeAngle", outer);
   }
   const double given_inner = inner, given_outer = outer;
-  constexpr double kNarrowest = 1e-4;  // a cone that single precision can still tell from a line
+  constexpr double kNarrowest =
+      2e-3;  // 1 - cos is 2e-6 then, which single precision still resolves
   outer = std::clamp(outer, kNarrowest, kHalfPi);
-  inner = std::clamp(inner, 0.0, outer * (1.0 - kNarrowest));
+  inner = std::clamp(inner, 0.0, outer * (1.0 - 1e-4));
   if (inner != given_inner || outer != given_outer) {
     element.warn("cone angles",
                  "its cone angles are not 0 <= inner < outer <= pi/2 and were clamped");

@@ -63,17 +63,10 @@ Accessor read_positions(const Element& attributes, Buffers& buffers) {
   Accessor accessor(attributes.follow("POSITION", "accessors"), buffers);
   const Element element = attributes.require("POSITION");
   if (accessor.components() != 3) element.fail("is not of type VEC3", "write x, y, z");
-  for (std::uint64_t i = 0; i < accessor.count(); ++i) {
-    if (!is_finite(accessor.vec3(i))) {
-      element.fail("vertex " + std::to_string(i) + " (" + accessor.path() + ") is not finite",
-                   "repair the mesh");
-    }
-  }
   return accessor;
 }
 
-std::optional<Accessor> read_indices(const Element& primitive, Buffers& buffers,
-                                     std::uint64_t vertex_count) {
+std::optional<Accessor> read_indices(const Element& primitive, Buffers& buffers) {
   const std::optional<Element> element = primitive.find("indices");
   if (!element) return std::nullopt;
   Accessor accessor(primitive.follow("indices", "accessors"), buffers);
@@ -82,13 +75,6 @@ std::optional<Accessor> read_indices(const Element& primitive, Buffers& buffers,
       type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
   if (accessor.components() != 1 || !is_unsigned) {
     element->fail("are not unsigned integers", "use SCALAR with componentType 5121, 5123 or 5125");
-  }
-  for (std::uint64_t i = 0; i < accessor.count(); ++i) {
-    if (accessor.whole(i) >= vertex_count) {
-      element->fail("index " + std::to_string(accessor.whole(i)) + " (" + accessor.path() +
-                        ") exceeds the " + std::to_string(vertex_count) + " vertices",
-                    "repair the mesh");
-    }
   }
   return accessor;
 }
@@ -115,7 +101,7 @@ std::optional<Primitive> read_primitive(const Element& element, Buffers& buffers
   primitive.normal = attribute(attributes, "NORMAL", buffers, count, 3, 3);
   primitive.texcoord = attribute(attributes, "TEXCOORD_0", buffers, count, 2, 2);
   primitive.color = attribute(attributes, "COLOR_0", buffers, count, 3, 4);
-  primitive.indices = read_indices(element, buffers, count);
+  primitive.indices = read_indices(element, buffers);
   primitive.triangle_count =
       triangle_count_of(element, *topology, primitive.indices ? primitive.indices->count() : count);
   const bool has_material = element.find("material").has_value();
@@ -142,6 +128,23 @@ Indices vertices_of(const Primitive& primitive, std::uint64_t t) {
     for (std::uint64_t& corner : corners) corner = primitive.indices->whole(corner);
   }
   return corners;
+}
+
+glm::dvec3 checked_position(const Primitive& primitive, std::uint64_t vertex) {
+  const Accessor& accessor = primitive.position;
+  if (vertex >= accessor.count()) {
+    primitive.element.require("indices").fail("index " + std::to_string(vertex) + " exceeds the " +
+                                                  std::to_string(accessor.count()) + " vertices",
+                                              "repair the mesh");
+  }
+  const glm::dvec3 position = accessor.vec3(vertex);
+  if (!is_finite(position)) {
+    primitive.element.require("attributes")
+        .require("POSITION")
+        .fail("vertex " + std::to_string(vertex) + " (" + accessor.path() + ") is not finite",
+              "repair the mesh");
+  }
+  return position;
 }
 
 glm::dvec3 transformed(const glm::dmat4& matrix, glm::dvec3 point) {
@@ -235,7 +238,7 @@ std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
 void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world) {
   for (std::uint64_t t = 0; t < primitive.triangle_count; ++t) {
     for (const std::uint64_t vertex : vertices_of(primitive, t)) {
-      const glm::dvec3 world = transformed(to_world, primitive.position.vec3(vertex));
+      const glm::dvec3 world = transformed(to_world, checked_position(primitive, vertex));
       if (!is_finite(world)) {
         primitive.element.fail("its positions overflow in the world", "use smaller transforms");
       }

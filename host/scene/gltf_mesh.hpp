@@ -25,7 +25,8 @@ class MaterialUses {
 
 enum class Topology { triangles, strip, fan };
 
-/// A primitive whose accessors agree with each other and whose indices are all in range.
+/// A primitive whose accessors agree with each other. `extend` checks the indices and positions in
+/// it.
 struct Primitive {
   Element element;
   Topology topology = Topology::triangles;
@@ -42,11 +43,12 @@ struct Box {
 };
 
 /// The primitives of a mesh that consist of triangles; others are skipped with a warning.
-/// Throws Failure for malformed ones and for positions that are not finite.
+/// Throws Failure for malformed ones. Takes no time in proportion to their size.
 std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
                                        MaterialUses& materials);
 
-/// Extends `box` by the corners of the primitive's triangles in the world.
+/// Extends `box` by the corners of the primitive's triangles in the world. Throws Failure for
+/// indices out of range and positions that are not finite; must succeed before `bake`.
 void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world);
 
 /// Appends the primitive's triangles to `triangles`. Returns how many were left out because they

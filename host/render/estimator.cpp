@@ -1,0 +1,122 @@
+#include "estimator.hpp"
+
+#include "ppm_shaders.hpp"
+#include "shared/layout.h"
+
+namespace ppm::render {
+namespace {
+
+// Photons wanted in a first disc: with some ten a pass the law of radii holds from the start.
+constexpr std::uint32_t kPilotPhotons = 20;
+// A first disc is never smaller than this many footprints of its pixel.
+constexpr float kLeastFootprints = 0.5f;
+
+}  // namespace
+
+Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t tile_hits)
+    : device_(device),
+      scene_(scene),
+      gather_(device, shaders::gather),
+      update_(device, shaders::update),
+      resolve_(device, shaders::resolve),
+      radius_(device, shaders::radius),
+      pilot_(device, shaders::pilot),
+      cursors_{{device, "search cursors A", tile_hits * sizeof(shared::GatherCursor), gpu::Usage::storage},
+               {device, "search cursors B", tile_hits * sizeof(shared::GatherCursor), gpu::Usage::storage}},
+      histogram_buffer_(device, "radius histogram", PPM_RADIUS_BINS * 4, gpu::Usage::storage),
+      cursor_capacity_(tile_hits),
+      counters_(device) {}
+
+gpu::BindingTable Estimator::table_for(const HitTile& tile) const {
+  gpu::BindingTable table = scene_;
+  tile.bind(table);
+  counters_.bind(table);
+  table.set(PPM_BIND_RADIUS_HISTOGRAM, histogram_buffer_);
+  return table;
+}
+
+Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& grid) {
+  gpu::BindingTable table = table_for(tile);
+  grid.bind(table);
+  shared::GatherPush push{};
+  push.grid = grid.constants();
+  push.cursor_capacity = static_cast<std::uint32_t>(cursor_capacity_);
+  std::uint32_t searches = tile.hits;
+  Rejected rejected;
+  for (std::uint32_t round = 0; searches > 0; ++round) {
+    push.from_cursors = round == 0 ? 0 : 1;
+    table.set(PPM_BIND_CONTINUE_IN, cursors_[round % 2]);
+    table.set(PPM_BIND_CONTINUE_OUT, cursors_[(round + 1) % 2]);
+    device_.run([&](gpu::Recorder& recorder) {
+      counters_.clear(recorder);
+      recorder.dispatch(gather_, table, push, searches);
+      counters_.read(recorder);
+    });
+    rejected.overflow += counters_[PPM_COUNTER_OVERFLOW];
+    rejected.clamped += counters_[PPM_COUNTER_CLAMPED];
+    searches = counters_[PPM_COUNTER_CONTINUE];
+  }
+  return rejected;
+}
+
+void Estimator::update(std::span<const HitTile> tiles, float alpha) {
+  device_.run([&](gpu::Recorder& recorder) {
+    recorder.fill(histogram_buffer_, 0, histogram_buffer_.bytes());
+    for (const HitTile& tile : tiles) {
+      recorder.dispatch(update_, table_for(tile), shared::UpdatePush{0, 0, alpha}, tile.hits);
+    }
+    recorder.read(histogram_buffer_, radius_histogram_.data(), sizeof(radius_histogram_));
+  });
+}
+
+void Estimator::clear_sums(std::span<const HitTile> tiles) {
+  device_.run([&](gpu::Recorder& recorder) {
+    for (const HitTile& tile : tiles) recorder.fill(tile.sums, 0, tile.sums.bytes());
+  });
+}
+
+std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t samples, float scale) {
+  gpu::Buffer pixels(device_, "pixels", tile.pixels * sizeof(glm::vec4), gpu::Usage::storage);
+  gpu::BindingTable table = table_for(tile);
+  table.set(PPM_BIND_PIXELS, pixels);
+  device_.run([&](gpu::Recorder& recorder) {
+    std::uint32_t skip = 0;
+    do {
+      recorder.dispatch(resolve_, table, shared::ResolvePush{0, 0, samples, skip, scale}, tile.pixels);
+      skip += PPM_RESOLVE_SLICE;
+    } while (skip < tile.max_pixel_hits);
+  });
+  return pixels.download<glm::vec4>(tile.pixels);
+}
+
+void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footprints) {
+  device_.run([&](gpu::Recorder& recorder) {
+    recorder.dispatch(radius_, table_for(tile), shared::RadiusPush{0, 0, fixed_radius, footprints}, tile.hits);
+  });
+}
+
+std::uint32_t Estimator::pilot_round(const HitTile& tile, const PhotonGrid& grid, std::uint32_t round, bool last,
+                                     float radius) {
+  gpu::BindingTable table = table_for(tile);
+  grid.bind(table);
+  shared::PilotPush push{};
+  push.round_index = round;
+  push.last_round = last ? 1 : 0;
+  push.radius = radius;
+  push.footprints_min = kLeastFootprints;
+  push.wanted = kPilotPhotons;
+  push.grid = grid.constants();
+  device_.run([&](gpu::Recorder& recorder) {
+    counters_.clear(recorder);
+    recorder.dispatch(pilot_, table, push, tile.hits);
+    counters_.read(recorder);
+  });
+  return counters_[PPM_COUNTER_UNDECIDED];
+}
+
+void Estimator::measure_radii(std::span<const HitTile> tiles) {
+  // An update without photons changes no hit point and counts all radii.
+  update(tiles, 0.5f);
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,47 @@
+// The ray tracing pass: from a range of pixels to a tile of hit points.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "counters.hpp"
+#include "exclusive_scan.hpp"
+#include "hit_tile.hpp"
+#include "integrator.hpp"
+
+namespace ppm::render {
+
+/// Queues and staging memory of the eye pass; needed only while tiles are made.
+class EyePass {
+ public:
+  EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Settings& settings);
+
+  /// Pixels worth trying for the next tile: what earlier tiles needed a pixel, and some reserve.
+  std::uint32_t suggested_pixels() const;
+
+  enum class Result { done, too_large, interrupted };
+
+  /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them. too_large: a queue or
+  /// the staging memory overflowed and fewer pixels must be tried.
+  Result trace(std::uint32_t first_pixel, std::uint32_t pixels, const std::function<bool()>& interrupted, HitTile& tile);
+
+  const Counters& counters() const { return counters_; }  ///< of the last trace
+
+ private:
+  Result trace_paths(std::uint32_t first_pixel, std::uint32_t pixels, const std::function<bool()>& interrupted);
+  void order_hits(HitTile& tile);
+
+  gpu::Device& device_;
+  std::uint32_t samples_;
+  Filter filter_;
+  std::uint64_t capacity_;  ///< paths in a queue, and hit points
+  double hits_per_pixel_;
+  gpu::BindingTable table_;
+  gpu::Kernel eye_, count_, scatter_, order_;
+  ExclusiveScan scan_;
+  gpu::Buffer queue_[2], staged_hits_, staged_keys_, group_count_, order_list_;
+  Counters counters_;
+};
+
+}  // namespace ppm::render

@@ -1,0 +1,103 @@
+#include "light_table.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace ppm::render {
+namespace {
+
+constexpr double kEvenShare = 0.01;
+
+shared::Light resolve(const shared::LightRecord& record, const scene::Scene& scene, std::span<const std::uint32_t> order,
+                      glm::vec3 centre, float radius) {
+  shared::Light light{};
+  light.record = record;
+  light.bounding_centre = centre;
+  light.bounding_radius = radius;
+  if (record.kind == PPM_LIGHT_TRIANGLE) {
+    const scene::Triangle& triangle = scene.triangles[order[record.triangle]];
+    light.corner0 = triangle.corners[0].position;
+    light.corner1 = triangle.corners[1].position;
+    light.corner2 = triangle.corners[2].position;
+    light.two_sided = scene.materials[triangle.material].double_sided ? 1.0f : 0.0f;
+  }
+  return light;
+}
+
+shared::LightRecord punctual_record(const scene::PunctualLight& source) {
+  shared::LightRecord record{};
+  record.position = source.position;
+  record.kind = source.kind == scene::PunctualKind::point  ? PPM_LIGHT_POINT
+                : source.kind == scene::PunctualKind::spot ? PPM_LIGHT_SPOT
+                                                           : PPM_LIGHT_DIRECTIONAL;
+  record.emission = source.intensity;
+  record.direction = source.direction;
+  record.cos_inner = std::cos(source.inner_cone_angle);
+  record.cos_outer = std::cos(source.outer_cone_angle);
+  return record;
+}
+
+}  // namespace
+
+AliasTable make_alias_table(std::span<const double> weights) {
+  const std::size_t n = weights.size();
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<double> scaled(n);
+  std::vector<std::uint32_t> small, large;
+  for (std::size_t i = 0; i < n; ++i) {
+    scaled[i] = weights[i] / sum * static_cast<double>(n);
+    (scaled[i] < 1.0 ? small : large).push_back(static_cast<std::uint32_t>(i));
+  }
+  AliasTable table{std::vector<std::uint32_t>(n, 0xffffffffu), std::vector<std::uint32_t>(n)};
+  std::iota(table.alias.begin(), table.alias.end(), 0u);
+  while (!small.empty() && !large.empty()) {
+    const std::uint32_t less = small.back();
+    const std::uint32_t more = large.back();
+    small.pop_back();
+    table.threshold[less] = static_cast<std::uint32_t>(scaled[less] * 4294967295.0);
+    table.alias[less] = more;
+    scaled[more] -= 1.0 - scaled[less];
+    if (scaled[more] < 1.0) {
+      large.pop_back();
+      small.push_back(more);
+    }
+  }
+  return table;  // what is left over is full to rounding, and is its own alias
+}
+
+LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order, glm::vec3 bounding_centre,
+                            float bounding_radius) {
+  LightTable table;
+  std::vector<double> powers;
+  const auto add = [&](const shared::LightRecord& record) {
+    const glm::dvec3 power = shared::light_power(resolve(record, scene, order, bounding_centre, bounding_radius));
+    const double mean = (power.x + power.y + power.z) / 3.0;
+    if (!(mean > 0.0)) return;
+    table.records.push_back(record);
+    powers.push_back(mean);
+    table.total_power += mean;
+  };
+  for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
+    const scene::Material& material = scene.materials[scene.triangles[order[slot]].material];
+    if (material.emission == glm::vec3(0.0f)) continue;
+    shared::LightRecord record{};
+    record.kind = PPM_LIGHT_TRIANGLE;
+    record.emission = material.emission;
+    record.triangle = slot;
+    add(record);
+  }
+  for (const scene::PunctualLight& source : scene.punctual_lights) add(punctual_record(source));
+  if (powers.empty()) return table;
+
+  const double even = kEvenShare * table.total_power / static_cast<double>(powers.size());
+  for (double& power : powers) power = (1.0 - kEvenShare) * power + even;
+  const AliasTable alias = make_alias_table(powers);
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    table.records[i].probability = static_cast<float>(powers[i] / table.total_power);
+    table.records[i].alias_threshold = alias.threshold[i];
+    table.records[i].alias = alias.alias[i];
+  }
+  return table;
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,37 @@
+// The photon hash grid, rebuilt for every chunk of photons by a counting sort.
+#pragma once
+
+#include <span>
+
+#include "exclusive_scan.hpp"
+#include "kernel.hpp"
+#include "shared/layout.h"
+
+namespace ppm::render {
+
+class PhotonGrid {
+ public:
+  /// Over the box [bounds_min, bounds_max] (working frame) for up to `photon_capacity` photons.
+  PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max, std::uint64_t photon_capacity);
+
+  /// Sorts `photons` photons (bound in `photon_table`) into cells of about `cell` working units. The size of cells
+  /// decides how fast searches are, never what they find.
+  void build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons, float cell);
+
+  void bind(gpu::BindingTable& table) const;
+  const shared::GridConstants& constants() const { return constants_; }
+
+ private:
+  glm::vec3 bounds_min_, bounds_max_;
+  std::uint32_t table_entries_;  ///< of a hashed table, a power of two
+  gpu::Kernel count_, scatter_;
+  ExclusiveScan scan_;
+  gpu::Buffer cell_count_, cell_start_, sorted_position_, sorted_flux_;
+  shared::GridConstants constants_{};
+};
+
+/// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their 90th percentile, so
+/// that a few large discs do not make everyone else's cells too large. 0 when there are none.
+float cell_from_radii(std::span<const std::uint32_t> histogram);
+
+}  // namespace ppm::render

@@ -1,0 +1,242 @@
+#include "ppm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eye_pass.hpp"
+#include "failure.hpp"
+#include "shared/camera.h"
+#include "shared/random.h"
+#include "stopwatch.hpp"
+
+namespace ppm::render {
+namespace {
+
+// Paths traced at a time: their queues take 25 MB, and the shallow rounds fill any device.
+constexpr std::uint64_t kPathCapacity = 1u << 18;
+// The paper's other choice of the first radius: this many footprints of the pixel.
+constexpr float kFootprints = 3.0f;
+// The pilot never looks further than this share of the scene's bounding radius ...
+constexpr float kLargestRadius = 0.02f;
+// ... and halves its radius at most this often.
+constexpr std::uint32_t kPilotRounds = 12;
+
+std::uint64_t photon_capacity(const Settings& settings, const gpu::Device& device) {
+  // Some three deposits a path in a closed room; eight spare most scenes a second try.
+  const std::uint64_t wanted = std::max<std::uint64_t>(8 * settings.photons_per_pass, 1u << 16);
+  return std::min({settings.photon_capacity, wanted, device.max_storage_bytes() / 16});
+}
+
+gpu::BindingTable scene_table(const SceneBuffers& buffers) {
+  gpu::BindingTable table;
+  buffers.bind(table);
+  return table;
+}
+
+}  // namespace
+
+PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
+                             unsigned threads)
+    : settings_(settings),
+      scene_(scene),
+      device_(device),
+      log_(log),
+      buffers_(scene, settings, device, threads),
+      table_(scene_table(buffers_)),
+      pipelines_begin_(clock_seconds()),
+      tracer_(device, table_, photon_capacity(settings, device), kPathCapacity),
+      grid_(device, scene.bounds_min, scene.bounds_max, photon_capacity(settings, device)),
+      estimator_(device, table_, settings.tile_hits),
+      chunk_paths_(static_cast<std::uint32_t>(std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
+  statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
+  statistics_.seconds["bvh"] = buffers_.bvh_seconds();
+  statistics_.triangles = scene.triangles.size();
+  statistics_.lights = buffers_.light_count();
+  if (std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel > 0xffffffffu) {
+    throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths", "make the picture smaller or lower --spp");
+  }
+  if (settings.photons_per_pass > 0xffffffffu) {
+    throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
+  }
+  if (buffers_.light_count() == 0) {
+    log_.warn(scene.file + ": nothing in the scene gives off light: the picture will be black");
+  }
+}
+
+bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
+  return trace_eye_paths(interrupted) && find_initial_radii(interrupted);
+}
+
+bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
+  const Stopwatch stopwatch(statistics_.seconds["eye"]);
+  EyePass eye(device_, table_, settings_);
+  const std::uint32_t all_pixels = settings_.width * settings_.height;
+  std::uint32_t pixels = 0;
+  for (std::uint32_t first = 0; first < all_pixels; first += pixels) {
+    pixels = std::min(all_pixels - first, eye.suggested_pixels());
+    HitTile tile;
+    for (;;) {
+      const EyePass::Result result = eye.trace(first, pixels, interrupted, tile);
+      if (result == EyePass::Result::interrupted) return false;
+      if (result == EyePass::Result::done) break;
+      if (pixels == 1) {
+        throw Failure("", "--spp " + std::to_string(settings_.samples_per_pixel),
+                      "the hit points of one pixel do not fit a tile", "lower --spp or raise --tile-hits");
+      }
+      pixels = (pixels + 1) / 2;
+    }
+    count_rejected(eye.counters());
+    statistics_.hit_points += tile.hits;
+    tiles_.push_back(std::move(tile));
+    statistics_.tiles = tiles_.size();
+  }
+  return true;
+}
+
+bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
+  const Stopwatch stopwatch(statistics_.seconds["pilot"]);
+  const bool automatic = settings_.radius_mode == RadiusMode::automatic;
+  const float fixed = settings_.radius_mode == RadiusMode::fixed
+                          ? static_cast<float>(settings_.radius * scene_.frame.scale)
+                          : 0.0f;
+  const float footprints = settings_.radius_mode == RadiusMode::footprint ? kFootprints : 0.0f;
+  for (const HitTile& tile : tiles_) estimator_.set_radii(tile, fixed, footprints);
+  if (automatic && !run_pilot(interrupted)) return false;
+  estimator_.measure_radii(tiles_);
+  record_initial_radii();
+  return true;
+}
+
+bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
+  float radius = kLargestRadius * buffers_.constants().bounding_radius;
+  // The pilot's photons are a set of their own: radii must not depend on the photons that are estimated with them.
+  // All rounds see the same photons, as many as one chunk holds.
+  if (buffers_.light_count() > 0) {
+    for (;;) {
+      const auto result = tracer_.trace(PPM_STREAM_PILOT, 0, 0, chunk_paths_, interrupted);
+      if (result == PhotonTracer::Result::interrupted) return false;
+      if (result == PhotonTracer::Result::done) break;
+      chunk_paths_ = (chunk_paths_ + 1) / 2;
+    }
+  }
+  gpu::BindingTable photons;
+  tracer_.bind_photons(photons);
+  for (std::uint32_t round = 0; round < kPilotRounds; ++round, radius *= 0.5f) {
+    if (interrupted()) return false;
+    grid_.build(device_, photons, tracer_.photon_count(), radius);
+    const bool last = round + 1 == kPilotRounds;
+    std::uint64_t undecided = 0;
+    for (const HitTile& tile : tiles_) undecided += estimator_.pilot_round(tile, grid_, round, last, radius);
+    if (undecided == 0) break;
+  }
+  return true;
+}
+
+template <class Use>
+bool PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell,
+                                   const std::function<bool()>& interrupted, const Use& use) {
+  gpu::BindingTable photons;
+  tracer_.bind_photons(photons);
+  const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
+  for (std::uint32_t first = 0; first < paths;) {
+    const std::uint32_t chunk = std::min(chunk_paths_, paths - first);
+    PhotonTracer::Result result;
+    {
+      const Stopwatch stopwatch(statistics_.seconds["photons"]);
+      result = tracer_.trace(stream, pass, first, chunk, interrupted);
+    }
+    if (result == PhotonTracer::Result::interrupted) return false;
+    if (result == PhotonTracer::Result::overflow) {
+      chunk_paths_ = (chunk + 1) / 2;
+      continue;
+    }
+    {
+      const Stopwatch stopwatch(statistics_.seconds["grid"]);
+      grid_.build(device_, photons, tracer_.photon_count(), cell);
+    }
+    if (!use()) return false;
+    first += chunk;
+  }
+  return true;
+}
+
+bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
+  const double start = clock_seconds();
+  std::uint64_t stored = 0;
+  const float cell = estimator_.cell_size();
+  const bool lit = buffers_.light_count() > 0 && cell > 0.0f;
+  Statistics before = statistics_;
+  const auto use = [&] {
+    const Stopwatch stopwatch(statistics_.seconds["update"]);
+    for (const HitTile& tile : tiles_) {
+      if (interrupted()) return false;
+      const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
+      statistics_.rejected["overflow"] += rejected.overflow;
+      statistics_.rejected["clamped"] += rejected.clamped;
+    }
+    stored += tracer_.photon_count();
+    count_rejected(tracer_.counters());
+    return true;
+  };
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  if (lit && !for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, use)) {
+    estimator_.clear_sums(tiles_);
+    statistics_ = std::move(before);
+    return false;
+  }
+  {
+    const Stopwatch stopwatch(statistics_.seconds["update"]);
+    if (lit) estimator_.update(tiles_, static_cast<float>(settings_.alpha));
+  }
+  statistics_.passes += 1;
+  statistics_.photons_emitted += settings_.photons_per_pass;
+  statistics_.photons_stored += stored;
+  statistics_.pass_seconds.push_back(clock_seconds() - start);
+  return true;
+}
+
+Picture PpmIntegrator::resolve() {
+  const Stopwatch stopwatch(statistics_.seconds["resolve"]);
+  Picture picture{settings_.width, settings_.height,
+                  std::vector<float>(3ull * settings_.width * settings_.height, 0.0f)};
+  const double emitted = static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
+  const auto scale = static_cast<float>(buffers_.total_power() / emitted);
+  for (const HitTile& tile : tiles_) {
+    const std::vector<glm::vec4> pixels = estimator_.resolve(tile, settings_.samples_per_pixel, scale);
+    for (std::uint32_t i = 0; i < tile.pixels; ++i) {
+      const glm::uvec2 at = shared::pixel_position(tile.first_pixel + i, settings_.width, settings_.height);
+      float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings_.width + at.x)];
+      rgb[0] = pixels[i].x;
+      rgb[1] = pixels[i].y;
+      rgb[2] = pixels[i].z;
+    }
+  }
+  return picture;
+}
+
+void PpmIntegrator::count_rejected(const Counters& counters) {
+  statistics_.paths_cut += counters[PPM_COUNTER_PATHS_CUT];
+  statistics_.rejected["non_finite"] += counters[PPM_COUNTER_NON_FINITE];
+  statistics_.rejected["clamped"] += counters[PPM_COUNTER_CLAMPED];
+}
+
+void PpmIntegrator::record_initial_radii() {
+  std::vector<float> radii2;
+  for (const HitTile& tile : tiles_) {
+    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
+      if (statistic.w > 0.0f) radii2.push_back(statistic.w);
+    }
+  }
+  if (radii2.empty()) return;
+  const auto to_world = [&](float radius2) { return std::sqrt(static_cast<double>(radius2)) / scene_.frame.scale; };
+  const auto [least, most] = std::minmax_element(radii2.begin(), radii2.end());
+  statistics_.initial_radius_min = to_world(*least);
+  statistics_.initial_radius_max = to_world(*most);
+  const auto middle = radii2.begin() + static_cast<std::ptrdiff_t>(radii2.size() / 2);
+  std::nth_element(radii2.begin(), middle, radii2.end());
+  statistics_.initial_radius_median = to_world(*middle);
+}
+
+const Statistics& PpmIntegrator::statistics() { return statistics_; }
+
+}  // namespace ppm::render

@@ -1,0 +1,54 @@
+// Progressive photon mapping [HOJ08]: the loop over passes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "estimator.hpp"
+#include "integrator.hpp"
+#include "photon_grid.hpp"
+#include "photon_tracer.hpp"
+#include "scene_buffers.hpp"
+
+namespace ppm::render {
+
+class PpmIntegrator final : public Integrator {
+ public:
+  PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log, unsigned threads);
+
+  bool prepare(const std::function<bool()>& interrupted) override;
+  bool advance(const std::function<bool()>& interrupted) override;
+  Picture resolve() override;
+  SavedState save_state() override;
+  void restore_state(const SavedState& state) override;
+  const Statistics& statistics() override;
+
+ private:
+  bool trace_eye_paths(const std::function<bool()>& interrupted);
+  bool find_initial_radii(const std::function<bool()>& interrupted);
+  bool run_pilot(const std::function<bool()>& interrupted);
+  /// Traces all paths of a pass in chunks that fit, and hands the sorted photons of each to `use`. Photons are in
+  /// cells of `cell` working units. False when interrupted.
+  template <class Use>
+  bool for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell, const std::function<bool()>& interrupted,
+                      const Use& use);
+  void record_initial_radii();
+  void count_rejected(const Counters& counters);
+  std::uint64_t fingerprint() const;
+
+  Settings settings_;
+  const scene::Scene& scene_;
+  gpu::Device& device_;
+  Log& log_;
+  SceneBuffers buffers_;
+  gpu::BindingTable table_;
+  double pipelines_begin_;  // reading of the clock, between the members that are timed
+  PhotonTracer tracer_;
+  PhotonGrid grid_;
+  Estimator estimator_;
+  std::vector<HitTile> tiles_;
+  std::uint32_t chunk_paths_;  // paths traced at a time, at most
+  Statistics statistics_;
+};
+
+}  // namespace ppm::render

@@ -1,0 +1,109 @@
+// Saving and restoring a rendering between two passes.
+#include <cstring>
+#include <type_traits>
+
+#include "failure.hpp"
+#include "ppm.hpp"
+
+namespace ppm::render {
+namespace {
+
+// Everything else follows from scene and settings: geometry of hit points by tracing the eye paths again, photons by
+// their numbers.
+struct Header {
+  std::uint64_t fingerprint;
+  std::uint64_t passes, photons_emitted, photons_stored;
+  std::uint64_t hit_points;
+};
+
+class Hash {  // FNV-1a, 64 bits
+ public:
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3ull;
+  }
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
+    add(&value, sizeof value);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ull;
+};
+
+void append(SavedState& state, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  state.insert(state.end(), bytes, bytes + size);
+}
+
+[[noreturn]] void refuse(const char* why) {
+  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
+}
+
+}  // namespace
+
+std::uint64_t PpmIntegrator::fingerprint() const {
+  Hash hash;
+  hash.add(settings_.width);
+  hash.add(settings_.height);
+  hash.add(settings_.photons_per_pass);
+  hash.add(settings_.alpha);
+  hash.add(static_cast<std::uint32_t>(settings_.radius_mode));
+  hash.add(settings_.radius);
+  hash.add(settings_.samples_per_pixel);
+  hash.add(static_cast<std::uint32_t>(settings_.filter));
+  hash.add(&buffers_.constants(), sizeof(shared::SceneConstants));  // camera, seed, depth, lights' power
+  for (const scene::Triangle& triangle : scene_.triangles) {
+    for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
+    hash.add(triangle.material);
+  }
+  return hash.value();
+}
+
+SavedState PpmIntegrator::save_state() {
+  SavedState state;
+  const Header header{fingerprint(), statistics_.passes, statistics_.photons_emitted, statistics_.photons_stored,
+                      statistics_.hit_points};
+  append(state, &header, sizeof header);
+  for (const HitTile& tile : tiles_) {
+    // By record, not by tile: how the picture is cut into tiles may differ when the rendering goes on.
+    const auto statistics = tile.statistics.download<glm::vec4>(tile.hits);
+    const auto counts = tile.photon_counts.download<std::uint32_t>(tile.hits);
+    for (std::uint32_t i = 0; i < tile.hits; ++i) {
+      append(state, &statistics[i], sizeof statistics[i]);
+      append(state, &counts[i], sizeof counts[i]);
+    }
+  }
+  return state;
+}
+
+void PpmIntegrator::restore_state(const SavedState& state) {
+  constexpr std::size_t kRecord = sizeof(glm::vec4) + sizeof(std::uint32_t);
+  Header header;
+  if (state.size() < sizeof header) refuse("truncated");
+  std::memcpy(&header, state.data(), sizeof header);
+  if (header.fingerprint != fingerprint()) refuse("of another scene or other options");
+  if (state.size() != sizeof header + header.hit_points * kRecord) refuse("truncated");
+  trace_eye_paths([] { return false; });
+  if (statistics_.hit_points != header.hit_points) refuse("of another device or program");
+
+  const std::uint8_t* next = state.data() + sizeof header;
+  for (HitTile& tile : tiles_) {
+    std::vector<glm::vec4> statistics(tile.hits);
+    std::vector<std::uint32_t> counts(tile.hits);
+    for (std::uint32_t i = 0; i < tile.hits; ++i, next += kRecord) {
+      std::memcpy(&statistics[i], next, sizeof statistics[i]);
+      std::memcpy(&counts[i], next + sizeof statistics[i], sizeof counts[i]);
+    }
+    tile.statistics.upload(std::span<const glm::vec4>(statistics));
+    tile.photon_counts.upload(std::span<const std::uint32_t>(counts));
+  }
+  estimator_.measure_radii(tiles_);
+  statistics_.passes = header.passes;
+  statistics_.photons_emitted = header.photons_emitted;
+  statistics_.photons_stored = header.photons_stored;
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,106 @@
+// glTF files put together accessor by accessor, so that tests can bend every part of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "load_gltf.hpp"
+
+namespace ppm::test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// glTF's componentType of a C++ type.
+template <typename T>
+inline constexpr int kComponentType = 0;
+template <>
+inline constexpr int kComponentType<std::int8_t> = 5120;
+template <>
+inline constexpr int kComponentType<std::uint8_t> = 5121;
+template <>
+inline constexpr int kComponentType<std::int16_t> = 5122;
+template <>
+inline constexpr int kComponentType<std::uint16_t> = 5123;
+template <>
+inline constexpr int kComponentType<std::uint32_t> = 5125;
+template <>
+inline constexpr int kComponentType<float> = 5126;
+
+/// Values as they lie in memory.
+template <typename T>
+Bytes bytes_of(const std::vector<T>& values) {
+  Bytes bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+/// A document with one buffer. `root` may be bent at will before it is written.
+struct GltfDocument {
+  nlohmann::json root = {{"asset", {{"version", "2.0"}}}};
+  Bytes binary;
+
+  /// Appends a bufferView and returns its index.
+  std::size_t view(const Bytes& bytes);
+  /// Appends an accessor of tightly packed `values` and returns its index.
+  template <typename T>
+  std::size_t accessor(const std::vector<T>& values, const char* type, bool normalized = false) {
+    const std::size_t components = static_cast<std::size_t>(type[0] == 'S' ? 1 : type[3] - '0');
+    nlohmann::json item = {{"bufferView", view(bytes_of(values))},
+                           {"componentType", kComponentType<T>},
+                           {"type", type},
+                           {"count", values.size() / components}};
+    if (normalized) item["normalized"] = true;
+    return append("accessors", std::move(item));
+  }
+  /// Appends to a top-level array and returns the item's index.
+  std::size_t append(const char* array, nlohmann::json item);
+  /// Appends a mesh of one primitive with these attributes, and a node that holds it. Returns the
+  /// primitive.
+  nlohmann::json& mesh(nlohmann::json attributes);
+  /// The same of the triangle (0,0,0), (1,0,0), (0,1,0).
+  nlohmann::json& triangle();
+
+  /// The buffer as a data URI.
+  void write_gltf(const std::filesystem::path& file) const;
+  void write_glb(const std::filesystem::path& file) const;
+  Bytes glb() const;
+};
+
+/// A PNG file of 8-bit RGBA texels, row-major from the top.
+Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba);
+
+std::string base64(const Bytes& bytes);
+void write_file(const std::filesystem::path& file, const Bytes& bytes);
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// An empty folder that goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Writes the document as a .gltf file and loads it, quietly.
+scene::Scene load(const GltfDocument& document, Log& log);
+scene::Scene load(const GltfDocument& document);
+/// How many of the log's warnings contain `fragment`.
+std::size_t warnings_with(const Log& log, const std::string& fragment);
+
+/// Corners back in world space, which frames cannot change.
+std::array<glm::dvec3, 3> world_corners(const scene::Scene& scene, std::size_t triangle);
+/// Of the front side, from the corners.
+glm::vec3 geometric_normal(const scene::Triangle& triangle);
+
+}  // namespace ppm::test
