@@ -1,0 +1,143 @@
+// The developer's benchmark: measured beside Embree in the same run, alternately, so that figures
+// hold on machines whose speed wanders. Medians of five repeats. Run it on an idle machine:
+// ppm_benchmark [THREADS]
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bvh.hpp"
+#include "device.hpp"
+#include "embree_rays.hpp"
+#include "embree_tree.hpp"
+#include "failure.hpp"
+#include "passes.hpp"
+#include "room.hpp"
+
+namespace ppm::benchmark {
+namespace {
+
+constexpr int kRepeats = 5;
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+template <typename Work>
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void compare_trees(RTCDevice embree, const char* name, const scene::Scene& scene,
+                   unsigned threads) {
+  std::vector<double> ours, plain, split;
+  bvh::Bvh tree;
+  EmbreeTree plain_tree, split_tree;
+  for (int i = 0; i < kRepeats; ++i) {
+    ours.push_back(seconds_of([&] { tree = bvh::build(scene.triangles, threads); }));
+    plain_tree = build_embree_tree(embree, scene.triangles, false);
+    plain.push_back(plain_tree.seconds);
+    split_tree = build_embree_tree(embree, scene.triangles, true);
+    split.push_back(split_tree.seconds);
+  }
+  const auto row = [&](const char* builder, double seconds, double cost, std::size_t nodes) {
+    fmt::print("{:<22} {:>9} {:<26} {:>8.1f} {:>8.2f} {:>9} {:>8.2f} {:>8.3f}\n", name,
+               scene.triangles.size(), builder, 1e3 * seconds, cost, nodes, seconds / median(split),
+               cost / split_tree.sah_cost);
+  };
+  row("ours", median(ours), tree.sah_cost, tree.nodes.size());
+  row("Embree, objects only", median(plain), plain_tree.sah_cost, plain_tree.nodes);
+  row("Embree, spatial splits", median(split), split_tree.sah_cost, split_tree.nodes);
+}
+
+// The unit: closest hits of diffuse-bounce rays in the large room, in camera order.
+class Unit {
+ public:
+  Unit(RTCDevice device, unsigned threads)
+      : threads_(threads),
+        room_(support::make_room(support::kLargeRoomTriangles)),
+        embree_(device, room_.triangles),
+        rays_(
+            bounce_rays(embree_, room_.triangles, camera_rays(room_.cameras.front(), 1280, 960))) {}
+
+  double rays_per_second() const { return benchmark::rays_per_second(embree_, rays_, threads_); }
+
+ private:
+  unsigned threads_;
+  scene::Scene room_;
+  EmbreeScene embree_;
+  std::vector<Ray> rays_;
+};
+
+double product_median(const std::vector<double>& seconds,
+                      const std::vector<double>& rays_per_second) {
+  std::vector<double> millions;
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    millions.push_back(1e-6 * seconds[i] * rays_per_second[i]);
+  return median(millions);
+}
+
+void measure_rendering(const Unit& unit, unsigned threads) {
+  gpu::Device device({});
+  const scene::Scene room = support::make_room();
+  const PassTimes times =
+      measure_passes(device, room, threads, kRepeats, [&] { return unit.rays_per_second(); });
+  fmt::print("\nRoom of {} triangles on {}: 640x480, 1 eye path a pixel, 100000 photons a pass\n",
+             room.triangles.size(), device.description().name);
+  fmt::print(
+      "Embree's diffuse bounces in the large room, {} threads: {:.2f} million rays a second\n",
+      threads, 1e-6 * median(times.unit_at_first));
+  fmt::print("{:<34} {:>8} {:>20}\n", "", "ms", "million Embree rays");
+  const auto row = [](const char* name, const std::vector<double>& seconds,
+                      const std::vector<double>& units) {
+    fmt::print("{:<34} {:>8.1f} {:>20.2f}\n", name, 1e3 * median(seconds),
+               product_median(seconds, units));
+  };
+  row("before the first pass, all told", times.prepare, times.unit_at_first);
+  row("eye pass", times.eye, times.unit_at_first);
+  row("pass at the start", times.first, times.unit_at_first);
+  row("pass once radii have halved", times.shrunk, times.unit_at_shrunk);
+}
+
+void measure_trees(RTCDevice embree, unsigned threads) {
+  fmt::print("\nBuilding trees on {} threads\n{:<22} {:>9} {:<26} {:>8} {:>8} {:>9} {:>8} {:>8}\n",
+             threads, "scene", "triangles", "builder", "ms", "SAH", "nodes", "time", "SAH");
+  fmt::print("{:>101}\n", "as a share of the last");
+  compare_trees(embree, "room", support::make_room(), threads);
+  compare_trees(embree, "large room", support::make_room(support::kLargeRoomTriangles), threads);
+  compare_trees(embree, "room of 1.5M", support::make_room(1500000), threads);
+  compare_trees(embree, "terrain of 1.5M", support::make_terrain(1500000), threads);
+}
+
+int run(unsigned threads) {
+  const RTCDevice embree = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  measure_rendering(Unit(embree, threads), threads);
+  measure_trees(embree, threads);
+  rtcReleaseDevice(embree);
+  return 0;
+}
+
+}  // namespace
+}  // namespace ppm::benchmark
+
+int main(int argc, char** argv) {
+  const long wanted =
+      argc > 1 ? std::strtol(argv[1], nullptr, 10) : std::thread::hardware_concurrency();
+  if (argc > 2 || wanted < 1 || wanted > 1024) {
+    fmt::print(stderr, "usage: ppm_benchmark [THREADS]\n");
+    return 2;
+  }
+  try {
+    return ppm::benchmark::run(static_cast<unsigned>(wanted));
+  } catch (const ppm::Failure& failure) {
+    fmt::print(stderr, "ppm_benchmark: {}\n", failure.what());
+    return 1;
+  }
+}

@@ -1,0 +1,55 @@
+#include "passes.hpp"
+
+#include <chrono>
+#include <memory>
+
+#include "integrator.hpp"
+
+namespace ppm::benchmark {
+namespace {
+
+bool never() {
+  return false;
+}
+
+template <typename Work>
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+int passes_until_half(double alpha) {
+  int passes = 0;
+  for (double area = 1.0; area > 0.25; ++passes) area *= (passes + alpha) / (passes + 1.0);
+  return passes;
+}
+
+PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigned threads,
+                         int repeats, const std::function<double()>& unit) {
+  render::Settings settings;
+  settings.samples_per_pixel = 1;
+  settings.camera = scene.cameras.front();
+  Log log(Verbosity::quiet);
+  PassTimes times;
+  std::unique_ptr<render::Integrator> integrator;
+  for (int i = 0; i < repeats; ++i) {
+    integrator.reset();
+    integrator = render::make_integrator(settings, scene, device, log, threads);
+    times.unit_at_first.push_back(unit());
+    times.prepare.push_back(seconds_of([&] { integrator->prepare(never); }));
+    times.eye.push_back(integrator->statistics().seconds.at("eye"));
+    integrator->advance(never);
+    times.first.push_back(seconds_of([&] { integrator->advance(never); }));
+  }
+  for (int pass = 2; pass < passes_until_half(settings.alpha); ++pass) integrator->advance(never);
+  for (int i = 0; i < repeats; ++i) {
+    times.unit_at_shrunk.push_back(unit());
+    times.shrunk.push_back(seconds_of([&] { integrator->advance(never); }));
+  }
+  return times;
+}
+
+}  // namespace ppm::benchmark

@@ -1,0 +1,29 @@
+// Passes of the renderer itself, through the interface that the driver uses.
+#pragma once
+
+#include <functional>
+
+#include "device.hpp"
+#include "scene.hpp"
+
+namespace ppm::benchmark {
+
+/// Passes until all radii have halved where every pass lands as many photons a unit area: after i
+/// passes R^2 has been multiplied by (j + alpha) / (j + 1) for every j < i, by Eqs. 7 and 9.
+int passes_until_half(double alpha);
+
+/// Seconds, one entry a repeat.
+struct PassTimes {
+  std::vector<double> prepare;  ///< before the first pass, all told
+  std::vector<double> eye;      ///< the eye passes' share of that
+  std::vector<double> first;   ///< a pass at the start (the second one: the first compiles kernels)
+  std::vector<double> shrunk;  ///< a pass once radii have halved
+  /// Embree's rays a second, measured just before each of the above.
+  std::vector<double> unit_at_first, unit_at_shrunk;
+};
+
+/// Renders `scene` at 640 x 480, one eye path a pixel, 100000 photons a pass.
+PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigned threads,
+                         int repeats, const std::function<double()>& unit);
+
+}  // namespace ppm::benchmark
