@@ -17,7 +17,7 @@ from gltf_builder import Scene, diffuse, geodesic_sphere, glass, lathe, light, m
 WIDTH, HEIGHT, BACK, FRONT = 2.4, 1.6, -1.1, 2.4  # the room: |x| <= WIDTH/2, 0 <= y <= HEIGHT, BACK <= z <= FRONT
 HAIR = 0.002                                      # balls float this high: glass must not touch anything
 
-# The fixtures. Where they hang decides what is seen: the left one shines on the glass ball and past the mirror
+# The fixtures. Where they hang decides what is seen: the left one shines on the glass ball and the mirror
 # ball, the right one on the far shoulder of the faceted ball.
 LENS_RADIUS = 0.14
 LENS_Y = 1.30
@@ -48,22 +48,22 @@ def add_balls(scene, glass_material):
     mirror = scene.material("mirror", metal((0.93, 0.93, 0.93)))
     smooth, faceted = geodesic_sphere(32), geodesic_sphere(4, smooth=False)
     for name, mesh, material, radius, x, z in (
-            ("mirror ball", smooth, mirror, 0.36, -0.46, -0.32),
-            ("faceted mirror ball", faceted, mirror, 0.34, 0.52, -0.22),
-            ("glass ball", smooth, glass_material, 0.17, -0.08, 0.22)):
+            ("mirror ball", smooth, mirror, 0.36, -0.34, -0.34),
+            ("faceted mirror ball", faceted, mirror, 0.34, 0.54, -0.22),
+            ("glass ball", smooth, glass_material, 0.17, -0.62, 0.18)):
         scene.add(name, mesh, material, (x, radius + HAIR, z), radius)
 
 
 def add_fixtures(scene, glass_material):
     dark_mirror = scene.material("dark mirror", metal((0.50, 0.50, 0.48)))
-    brushed = scene.material("brushed metal", metal((0.72, 0.68, 0.62), roughness=0.4))
-    warm = scene.material("light", light((1.0, 0.88, 0.70), 900))
+    brushed = scene.material("brushed metal", metal((0.72, 0.68, 0.62), roughness=0.6))
+    warm = scene.material("light", light((1.0, 0.88, 0.70), 1500))
     outside = TUBE_RADIUS + TUBE_WALL
     reflector = lathe([(0, TUBE_END_Y), (TUBE_RADIUS, TUBE_END_Y), (TUBE_RADIUS, TUBE_MOUTH_Y)], 96)
     # The outside runs a little into the ceiling, so that no edge lies in its plane.
     shell = lathe([(TUBE_RADIUS, TUBE_MOUTH_Y), (outside, TUBE_MOUTH_Y), (outside, HEIGHT + 0.01)], 96)
     bulb, lens = geodesic_sphere(6), geodesic_sphere(24)
-    for side, x, z in (("left", -0.36, -0.03), ("right", 0.62, -0.20)):
+    for side, x, z in (("left", -0.56, 0.0), ("right", 0.64, -0.20)):
         scene.add(f"{side} reflector", reflector, dark_mirror, (x, 0, z))
         scene.add(f"{side} shell", shell, brushed, (x, 0, z))
         scene.add(f"{side} light", bulb, warm, (x, LENS_Y + LIGHT_ABOVE_LENS, z), LIGHT_RADIUS)
