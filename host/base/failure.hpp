@@ -1,4 +1,5 @@
-// How the program fails: one exception for what users can mend, one macro for what only programmers can.
+// How the program fails: one exception for what users can mend, one macro for what only programmers
+// can.
 #pragma once
 
 #include <stdexcept>
@@ -23,7 +24,7 @@ class Failure : public std::runtime_error {
 }  // namespace ppm
 
 /// A condition that only a programming error can break; `message` shows the values involved.
-#define PPM_ASSERT(condition, message)                                            \
-  do {                                                                            \
+#define PPM_ASSERT(condition, message)                                                  \
+  do {                                                                                  \
     if (!(condition)) ::ppm::assertion_failed(#condition, message, __FILE__, __LINE__); \
   } while (false)

@@ -18,26 +18,29 @@ enum class Verb { render, devices, nothing };
 struct RenderOptions {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> outputs;
-  std::optional<std::uint32_t> width, height;   ///< Settings::width and height follow once the camera is known
+  std::optional<std::uint32_t> width,
+      height;  ///< Settings::width and height follow once the camera is known
   std::uint64_t passes = 64;
-  std::string camera;                           ///< name or index, empty: the first
+  std::string camera;  ///< name or index, empty: the first
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
-  std::optional<double> camera_fov;             ///< full vertical angle, degrees
+  std::optional<double> camera_fov;  ///< full vertical angle, degrees
   double exposure = 0.0;
   std::filesystem::path stats;
-  unsigned threads = 0;                         ///< host threads, 0: all
+  unsigned threads = 0;  ///< host threads, 0: all
   Verbosity verbosity = Verbosity::normal;
   gpu::DeviceOptions device;
-  render::Settings settings;                    ///< all but width, height, camera
+  render::Settings settings;  ///< all but width, height, camera
 };
 
 struct Options {
   Verb verb = Verb::nothing;
-  int exit_code = 0;                            ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
+  int exit_code =
+      0;  ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
   RenderOptions render;
 };
 
-/// Never throws for what a user can type: prints one line and yields Verb::nothing with exit code 2.
+/// Never throws for what a user can type: prints one line and yields Verb::nothing with exit
+/// code 2.
 Options parse(int argc, const char* const* argv);
 
 }  // namespace ppm::cli

@@ -13,15 +13,16 @@ namespace ppm::gpu {
 
 /// What kernels may do with a buffer. Any buffer can be a copy's source or destination.
 enum class Usage {
-  storage,            ///< storage buffer only; at most Device::max_storage_bytes
-  texels,             ///< read-only uvec4 texels; size rounded up to 16 bytes; at most Device::max_texels texels
-  storage_and_texels, ///< written as storage in one dispatch, read as texels in another
-  uniform,            ///< a uniform block
+  storage,  ///< storage buffer only; at most Device::max_storage_bytes
+  texels,   ///< read-only uvec4 texels; size rounded up to 16 bytes; at most Device::max_texels
+            ///< texels
+  storage_and_texels,  ///< written as storage in one dispatch, read as texels in another
+  uniform,             ///< a uniform block
 };
 
-/// Device-local memory, or host memory where the device's is full (the first such fallback is told by
-/// Device::memory_note). Zero-sized requests get 16 bytes. Movable; freed on destruction.
-/// Throws Failure that names the buffer, its size and what would mend it when memory or a limit is short.
+/// Device-local memory, or host memory where the device's is full (the first such fallback is told
+/// by Device::memory_note). Zero-sized requests get 16 bytes. Movable; freed on destruction. Throws
+/// Failure that names the buffer, its size and what would mend it when memory or a limit is short.
 class Buffer {
  public:
   Buffer();

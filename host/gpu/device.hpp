@@ -14,15 +14,17 @@ namespace ppm::gpu {
 
 /// One physical device as `ppm-vk devices` prints it.
 struct DeviceDescription {
-  std::uint32_t index = 0;             ///< what --device takes
-  std::string name, type, driver;      ///< type: discrete GPU, integrated GPU, virtual GPU, CPU, other
-  std::string api_version;             ///< "1.3.230"
-  std::uint64_t memory_bytes = 0;      ///< largest device-local heap
-  std::vector<std::string> obstacles;  ///< why it cannot serve, each naming the missing thing; empty if it can
+  std::uint32_t index = 0;         ///< what --device takes
+  std::string name, type, driver;  ///< type: discrete GPU, integrated GPU, virtual GPU, CPU, other
+  std::string api_version;         ///< "1.3.230"
+  std::uint64_t memory_bytes = 0;  ///< largest device-local heap
+  std::vector<std::string>
+      obstacles;  ///< why it cannot serve, each naming the missing thing; empty if it can
 };
 
 struct DeviceOptions {
-  /// Index, or a part of the name without regard to case; empty: the best (discrete, integrated, virtual, CPU).
+  /// Index, or a part of the name without regard to case; empty: the best (discrete, integrated,
+  /// virtual, CPU).
   std::string selector;
   /// Khronos validation with synchronization validation; messages are printed and counted.
   bool validation = false;
@@ -54,7 +56,8 @@ class Device {
   std::uint64_t max_storage_bytes() const;  ///< largest range a storage buffer may have
   std::uint64_t max_texels() const;         ///< largest uniform texel buffer, in 16-byte texels
 
-  /// Records commands, submits them, waits; then results of Recorder::read are in place and timings are added.
+  /// Records commands, submits them, waits; then results of Recorder::read are in place and timings
+  /// are added.
   void run(const std::function<void(Recorder&)>& record);
 
   /// Times since construction, by kernel name.
@@ -62,7 +65,8 @@ class Device {
 
   std::uint64_t allocated_bytes() const;  ///< now, by our own account
   std::uint64_t peak_bytes() const;
-  /// Tells of the first buffer that went to host memory because the device's was full; empty: none did.
+  /// Tells of the first buffer that went to host memory because the device's was full; empty: none
+  /// did.
   const std::string& memory_note() const;
   /// Messages of validation so far; 0 without validation.
   std::uint64_t validation_messages() const;

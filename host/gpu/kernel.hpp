@@ -13,7 +13,8 @@
 
 namespace ppm::gpu {
 
-/// Buffers by binding number (shared/bindings.h). Plain pointers: the buffers must outlive every use.
+/// Buffers by binding number (shared/bindings.h). Plain pointers: the buffers must outlive every
+/// use.
 class BindingTable {
  public:
   void set(std::uint32_t binding, const Buffer& buffer) { buffers_.at(binding) = &buffer; }
@@ -41,31 +42,35 @@ class Kernel {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Commands of one submission, in order: each sees the results of those before it (barriers are implied).
+/// Commands of one submission, in order: each sees the results of those before it (barriers are
+/// implied).
 class Recorder {
  public:
-  /// Runs `kernel` over items [0, count). The push block must begin with `uint first, count`, which are filled
-  /// in here: `first` and `count` of each range, as the items are cut into dispatches that keep within the
-  /// device's dispatch time, judged by how long this kernel's items took before. Nothing is recorded for no items.
-  /// The buffers that the kernel declares are taken from `table`; one that is missing is a programming error.
+  /// Runs `kernel` over items [0, count). The push block must begin with `uint first, count`, which
+  /// are filled in here: `first` and `count` of each range, as the items are cut into dispatches
+  /// that keep within the device's dispatch time, judged by how long this kernel's items took
+  /// before. Nothing is recorded for no items. The buffers that the kernel declares are taken from
+  /// `table`; one that is missing is a programming error.
   template <class Push>
   void dispatch(const Kernel& kernel, const BindingTable& table, Push push, std::uint64_t count) {
     static_assert(std::is_trivially_copyable_v<Push> && sizeof(Push) <= 128);
     dispatch_bytes(kernel, table, &push, sizeof(Push), count);
   }
 
-  void fill(const Buffer& buffer, std::uint32_t word, std::uint64_t bytes, std::uint64_t offset = 0);
-  void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t from_offset = 0,
-            std::uint64_t to_offset = 0);
-  /// Copies into `destination` when the submission has ended; it must live until then. At most 64 KiB.
+  void fill(const Buffer& buffer, std::uint32_t word, std::uint64_t bytes,
+            std::uint64_t offset = 0);
+  void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes,
+            std::uint64_t from_offset = 0, std::uint64_t to_offset = 0);
+  /// Copies into `destination` when the submission has ended; it must live until then. At most 64
+  /// KiB.
   void read(const Buffer& buffer, void* destination, std::uint64_t bytes, std::uint64_t offset = 0);
 
   struct Implementation;
   explicit Recorder(Implementation& implementation) : implementation_(implementation) {}
 
  private:
-  void dispatch_bytes(const Kernel& kernel, const BindingTable& table, void* push, std::size_t push_bytes,
-                      std::uint64_t count);
+  void dispatch_bytes(const Kernel& kernel, const BindingTable& table, void* push,
+                      std::size_t push_bytes, std::uint64_t count);
   Implementation& implementation_;
 };
 

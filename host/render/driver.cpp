@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "stopwatch.hpp"
 
 namespace ppm::render {
 namespace {
@@ -25,16 +25,6 @@ extern "C" void note_interruption(int) {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Whether the budget was spent.
 bool advance_all(Integrator& integrator, const Settings& settings, const Budget& budget,
@@ -51,14 +41,19 @@ bool advance_all(Integrator& integrator, const Settings& settings, const Budget&
   return true;
 }
 
-void warn_of_rejects(const Statistics& statistics, Log& log) {
-  if (statistics.paths_cut > 0) {
-    log.warn(fmt::format("{} paths were cut by the safety cap on their length; light is missing",
-                         statistics.paths_cut));
-  }
-  for (const auto& [reason, count] : statistics.rejected) {
-    if (count > 0) log.warn(fmt::format("{} contributions were rejected: {}", count, reason));
-  }
+/// Of all that makes the picture doubtful. Clamped normal factors do not: every picture of coarse
+/// meshes has some.
+void warn_of_losses(const Statistics& statistics, Log& log) {
+  const auto warn = [&](std::uint64_t count, const char* what) {
+    if (count > 0) log.warn(fmt::format("{} {}", count, what));
+  };
+  const auto rejected = [&](const char* reason) {
+    const auto entry = statistics.rejected.find(reason);
+    return entry == statistics.rejected.end() ? 0 : entry->second;
+  };
+  warn(statistics.paths_cut, "paths were cut by the safety cap on their length: light is missing");
+  warn(rejected("non_finite"), "photons or hit points were dropped for a NaN or infinity");
+  warn(rejected("overflow"), "sums were out of the range of fixed point: light is missing");
 }
 
 /// Does `deed`, keeping the first Failure for later.
@@ -100,18 +95,18 @@ void check_outputs(const Outputs& outputs) {
 Outcome drive(Integrator& integrator, const Settings& settings, const Budget& budget,
               const Outputs& outputs, const Circumstances& circumstances,
               const Interruption& interruption, Log& log) {
-  const Stopwatch whole;
+  const double start = clock_seconds();
   check_outputs(outputs);
   const bool complete = advance_all(integrator, settings, budget, interruption, log);
 
   const Picture picture = integrator.resolve();
   const Statistics& statistics = integrator.statistics();
-  warn_of_rejects(statistics, log);
+  warn_of_losses(statistics, log);
   if (!complete) {
     log.warn(fmt::format("interrupted after {} of {} passes; the picture so far is written",
                          statistics.passes, budget.passes));
   }
-  const Stopwatch writing;
+  const double writing_start = clock_seconds();
   const auto attributes = picture_attributes(settings, circumstances, statistics);
   std::optional<Failure> failure;
   for (const auto& file : outputs.pictures) {
@@ -124,8 +119,8 @@ Outcome drive(Integrator& integrator, const Settings& settings, const Budget& bu
   if (!outputs.statistics.empty()) {
     const std::map<std::string, double> seconds = {
         {"load", circumstances.load_seconds},
-        {"write", writing.seconds()},
-        {"total", circumstances.seconds_before + whole.seconds()}};
+        {"write", clock_seconds() - writing_start},
+        {"total", circumstances.seconds_before + clock_seconds() - start}};
     attempt(failure, [&] {
       write_whole(outputs.statistics,
                   statistics_json(settings, circumstances, statistics, seconds, log.warnings()));

@@ -21,8 +21,10 @@ Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::u
       resolve_(device, shaders::resolve),
       radius_(device, shaders::radius),
       pilot_(device, shaders::pilot),
-      cursors_{{device, "search cursors A", tile_hits * sizeof(shared::GatherCursor), gpu::Usage::storage},
-               {device, "search cursors B", tile_hits * sizeof(shared::GatherCursor), gpu::Usage::storage}},
+      cursors_{{device, "search cursors A", tile_hits * sizeof(shared::GatherCursor),
+                gpu::Usage::storage},
+               {device, "search cursors B", tile_hits * sizeof(shared::GatherCursor),
+                gpu::Usage::storage}},
       histogram_buffer_(device, "radius histogram", PPM_RADIUS_BINS * 4, gpu::Usage::storage),
       cursor_capacity_(tile_hits),
       counters_(device) {}
@@ -82,7 +84,8 @@ std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t sam
   device_.run([&](gpu::Recorder& recorder) {
     std::uint32_t skip = 0;
     do {
-      recorder.dispatch(resolve_, table, shared::ResolvePush{0, 0, samples, skip, scale}, tile.pixels);
+      recorder.dispatch(resolve_, table, shared::ResolvePush{0, 0, samples, skip, scale},
+                        tile.pixels);
       skip += PPM_RESOLVE_SLICE;
     } while (skip < tile.max_pixel_hits);
   });
@@ -91,12 +94,13 @@ std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t sam
 
 void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footprints) {
   device_.run([&](gpu::Recorder& recorder) {
-    recorder.dispatch(radius_, table_for(tile), shared::RadiusPush{0, 0, fixed_radius, footprints}, tile.hits);
+    recorder.dispatch(radius_, table_for(tile), shared::RadiusPush{0, 0, fixed_radius, footprints},
+                      tile.hits);
   });
 }
 
-std::uint32_t Estimator::pilot_round(const HitTile& tile, const PhotonGrid& grid, std::uint32_t round, bool last,
-                                     float radius) {
+std::uint32_t Estimator::pilot_round(const HitTile& tile, const PhotonGrid& grid,
+                                     std::uint32_t round, bool last, float radius) {
   gpu::BindingTable table = table_for(tile);
   grid.bind(table);
   shared::PilotPush push{};

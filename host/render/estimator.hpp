@@ -1,4 +1,5 @@
-// Searches, the progressive update and the picture: all that is done to tiles of hit points after the eye pass.
+// Searches, the progressive update and the picture: all that is done to tiles of hit points after
+// the eye pass.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ class Estimator {
   /// `scene` is the table of scene buffers; hit points per tile are at most `tile_hits`.
   Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t tile_hits);
 
-  /// Adds the grid's photons to the sums of the tile's hit points [HOJ08 Eq. 11]. Returns how many terms
-  /// were out of the range of fixed point and how many normal factors were clamped.
+  /// Adds the grid's photons to the sums of the tile's hit points [HOJ08 Eq. 11]. Returns how many
+  /// terms were out of the range of fixed point and how many normal factors were clamped.
   struct Rejected {
     std::uint64_t overflow = 0, clamped = 0;
   };
@@ -35,16 +36,18 @@ class Estimator {
   /// scale: total power / photons emitted.
   std::vector<glm::vec4> resolve(const HitTile& tile, std::uint32_t samples, float scale);
 
-  /// Cell size that suits the radii as of the last update (or of `set_radii`), working units; 0 without hit points.
+  /// Cell size that suits the radii as of the last update (or of `set_radii`), working units; 0
+  /// without hit points.
   float cell_size() const { return cell_from_radii(radius_histogram_); }
 
-  /// Gives the hit points of a tile their radius: `fixed_radius` (working units) if positive, else `footprints`
-  /// times their pixel's footprint if positive, else the mark that the pilot replaces.
+  /// Gives the hit points of a tile their radius: `fixed_radius` (working units) if positive, else
+  /// `footprints` times their pixel's footprint if positive, else the mark that the pilot replaces.
   void set_radii(const HitTile& tile, float fixed_radius, float footprints);
 
-  /// One round of the pilot (see pilot.comp) with the photons of `grid` in reach of `radius`. Returns how many hit points of
-  /// the tile are still without a radius.
-  std::uint32_t pilot_round(const HitTile& tile, const PhotonGrid& grid, std::uint32_t round, bool last, float radius);
+  /// One round of the pilot (see pilot.comp) with the photons of `grid` in reach of `radius`.
+  /// Returns how many hit points of the tile are still without a radius.
+  std::uint32_t pilot_round(const HitTile& tile, const PhotonGrid& grid, std::uint32_t round,
+                            bool last, float radius);
 
   /// Reads the histogram of radii without changing anything else.
   void measure_radii(std::span<const HitTile> tiles);

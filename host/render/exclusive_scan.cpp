@@ -16,10 +16,11 @@ ExclusiveScan::ExclusiveScan(gpu::Device& device, std::uint64_t max_entries)
     : sums_(device, shaders::scan_sums),
       chunks_(device, shaders::scan_chunks),
       offsets_(device, shaders::scan_offsets),
-      chunk_sums_(device, "scan sums", (chunk_count(max_entries) + 1) * sizeof(std::uint32_t), gpu::Usage::storage) {}
+      chunk_sums_(device, "scan sums", (chunk_count(max_entries) + 1) * sizeof(std::uint32_t),
+                  gpu::Usage::storage) {}
 
-void ExclusiveScan::record(gpu::Recorder& recorder, const gpu::Buffer& counts, const gpu::Buffer& starts,
-                           std::uint32_t entries) const {
+void ExclusiveScan::record(gpu::Recorder& recorder, const gpu::Buffer& counts,
+                           const gpu::Buffer& starts, std::uint32_t entries) const {
   gpu::BindingTable table;
   table.set(PPM_BIND_CELL_COUNT, counts);
   table.set(PPM_BIND_CELL_START, starts);

@@ -10,8 +10,8 @@ class ExclusiveScan {
   /// For arrays of up to `max_entries` counts.
   ExclusiveScan(gpu::Device& device, std::uint64_t max_entries);
 
-  /// starts[i] = sum of counts[0 .. i), for i in [0, entries]; sums below 2^32. `counts` holds `entries`
-  /// words, `starts` one more.
+  /// starts[i] = sum of counts[0 .. i), for i in [0, entries]; sums below 2^32. `counts` holds
+  /// `entries` words, `starts` one more.
   void record(gpu::Recorder& recorder, const gpu::Buffer& counts, const gpu::Buffer& starts,
               std::uint32_t entries) const;
 

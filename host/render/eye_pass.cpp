@@ -9,8 +9,8 @@
 namespace ppm::render {
 namespace {
 
-// Glass splits a path in two while it weighs more than this. Chance in the eye pass leaves noise that no photon
-// pass removes, so it is left to what hardly shows.
+// Glass splits a path in two while it weighs more than this. Chance in the eye pass leaves noise
+// that no photon pass removes, so it is left to what hardly shows.
 constexpr float kSplitWeight = 1.0f / 64.0f;
 
 }  // namespace
@@ -19,7 +19,8 @@ EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Sett
     : device_(device),
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
-      capacity_(std::min<std::uint64_t>(settings.tile_hits, device.max_storage_bytes() / sizeof(shared::HitPoint))),
+      capacity_(std::min<std::uint64_t>(settings.tile_hits,
+                                        device.max_storage_bytes() / sizeof(shared::HitPoint))),
       hits_per_pixel_(1.4 * samples_),
       table_(scene),
       eye_(device, shaders::eye),
@@ -29,13 +30,16 @@ EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Sett
       scan_(device, capacity_),
       queue_{{device, "eye paths A", capacity_ * sizeof(shared::EyePath), gpu::Usage::storage},
              {device, "eye paths B", capacity_ * sizeof(shared::EyePath), gpu::Usage::storage}},
-      staged_hits_(device, "staged hit points", capacity_ * sizeof(shared::HitPoint), gpu::Usage::storage),
-      staged_keys_(device, "staged keys", capacity_ * sizeof(shared::StagedKey), gpu::Usage::storage),
+      staged_hits_(device, "staged hit points", capacity_ * sizeof(shared::HitPoint),
+                   gpu::Usage::storage),
+      staged_keys_(device, "staged keys", capacity_ * sizeof(shared::StagedKey),
+                   gpu::Usage::storage),
       group_count_(device, "hit points a path", capacity_ * 4, gpu::Usage::storage),
       order_list_(device, "hit point order", capacity_ * 4, gpu::Usage::storage),
       counters_(device) {
   if (samples_ > capacity_) {
-    throw Failure("", "--spp " + std::to_string(samples_), "the eye paths of one pixel do not fit a tile",
+    throw Failure("", "--spp " + std::to_string(samples_),
+                  "the eye paths of one pixel do not fit a tile",
                   "use at most " + std::to_string(capacity_) + " or raise --tile-hits");
   }
   table_.set(PPM_BIND_STAGED_HITS, staged_hits_);
@@ -43,7 +47,8 @@ EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Sett
   table_.set(PPM_BIND_CELL_COUNT, group_count_);
   table_.set(PPM_BIND_ORDER, order_list_);
   counters_.bind(table_);
-  device.run([&](gpu::Recorder& recorder) { recorder.fill(group_count_, 0, group_count_.bytes()); });
+  device.run(
+      [&](gpu::Recorder& recorder) { recorder.fill(group_count_, 0, group_count_.bytes()); });
 }
 
 std::uint32_t EyePass::suggested_pixels() const {
@@ -53,7 +58,8 @@ std::uint32_t EyePass::suggested_pixels() const {
 
 EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
                                const std::function<bool()>& interrupted, HitTile& tile) {
-  if (const Result result = trace_paths(first_pixel, pixels, interrupted); result != Result::done) return result;
+  if (const Result result = trace_paths(first_pixel, pixels, interrupted); result != Result::done)
+    return result;
   tile.first_pixel = first_pixel;
   tile.pixels = pixels;
   tile.hits = counters_[PPM_COUNTER_HITS];
@@ -100,10 +106,12 @@ void EyePass::order_hits(HitTile& tile) {
   };
   tile.planes = {plane("hit points 0", 16), plane("hit points 1", 16), plane("hit points 2", 16),
                  plane("hit points 3", 16)};
-  tile.sample_start = gpu::Buffer(device_, "hit points of samples", (groups + 1ull) * 4, gpu::Usage::storage);
+  tile.sample_start =
+      gpu::Buffer(device_, "hit points of samples", (groups + 1ull) * 4, gpu::Usage::storage);
   tile.statistics = plane("statistics", 16);
   tile.photon_counts = gpu::Buffer(device_, "photon counts", tile.hits * 4ull, gpu::Usage::storage);
-  tile.sums = gpu::Buffer(device_, "gather sums", tile.hits * sizeof(shared::GatherSum), gpu::Usage::storage);
+  tile.sums = gpu::Buffer(device_, "gather sums", tile.hits * sizeof(shared::GatherSum),
+                          gpu::Usage::storage);
   tile.bind(table_);
 
   shared::EyeOrderPush push{};

@@ -22,14 +22,16 @@ class EyePass {
 
   enum class Result { done, too_large, interrupted };
 
-  /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them. too_large: a queue or
-  /// the staging memory overflowed and fewer pixels must be tried.
-  Result trace(std::uint32_t first_pixel, std::uint32_t pixels, const std::function<bool()>& interrupted, HitTile& tile);
+  /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them.
+  /// too_large: a queue or the staging memory overflowed and fewer pixels must be tried.
+  Result trace(std::uint32_t first_pixel, std::uint32_t pixels,
+               const std::function<bool()>& interrupted, HitTile& tile);
 
   const Counters& counters() const { return counters_; }  ///< of the last trace
 
  private:
-  Result trace_paths(std::uint32_t first_pixel, std::uint32_t pixels, const std::function<bool()>& interrupted);
+  Result trace_paths(std::uint32_t first_pixel, std::uint32_t pixels,
+                     const std::function<bool()>& interrupted);
   void order_hits(HitTile& tile);
 
   gpu::Device& device_;

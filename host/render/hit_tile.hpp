@@ -8,7 +8,8 @@
 
 namespace ppm::render {
 
-/// Pixels [first_pixel, first_pixel + pixels) in the order of shared/camera.h. Buffers of exactly the size needed.
+/// Pixels [first_pixel, first_pixel + pixels) in the order of shared/camera.h. Buffers of exactly
+/// the size needed.
 struct HitTile {
   std::uint32_t first_pixel = 0, pixels = 0;
   std::uint32_t hits = 0;            ///< records: hit points, and light seen
@@ -19,7 +20,8 @@ struct HitTile {
   gpu::Buffer sample_start;  ///< first record of each (pixel, sample), and the end
 
   // Statistics, indexed apart from geometry.
-  gpu::Buffer statistics;     ///< vec4: lambda, R^2 (before the first radius is found: footprint squared)
+  gpu::Buffer
+      statistics;  ///< vec4: lambda, R^2 (before the first radius is found: footprint squared)
   gpu::Buffer photon_counts;  ///< uint: C
   gpu::Buffer sums;           ///< GatherSum, all zero between passes
 

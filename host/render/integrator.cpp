@@ -6,11 +6,12 @@
 namespace ppm::render {
 namespace {
 
-using Factory = std::unique_ptr<Integrator> (*)(const Settings&, const scene::Scene&, gpu::Device&, Log&, unsigned);
+using Factory = std::unique_ptr<Integrator> (*)(const Settings&, const scene::Scene&, gpu::Device&,
+                                                Log&, unsigned);
 
 template <class Method>
-std::unique_ptr<Integrator> create(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
-                                   unsigned threads) {
+std::unique_ptr<Integrator> create(const Settings& settings, const scene::Scene& scene,
+                                   gpu::Device& device, Log& log, unsigned threads) {
   return std::make_unique<Method>(settings, scene, device, log, threads);
 }
 
@@ -25,12 +26,13 @@ constexpr Entry kIntegrators[] = {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device,
-                                            Log& log, unsigned threads) {
+std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene,
+                                            gpu::Device& device, Log& log, unsigned threads) {
   for (const Entry& entry : kIntegrators) {
     if (entry.name == settings.integrator) return entry.make(settings, scene, device, log, threads);
   }
-  throw Failure("", "--integrator", "unknown method '" + settings.integrator + "'", "see ppm-vk help render");
+  throw Failure("", "--integrator", "unknown method '" + settings.integrator + "'",
+                "see ppm-vk help render");
 }
 
 std::vector<std::string_view> integrator_names() {

@@ -23,16 +23,18 @@ struct Settings {
   std::string integrator = "ppm";
   std::uint32_t width = 640, height = 480;
   std::uint64_t photons_per_pass = 100000;
-  double alpha = 0.7;                       ///< in (0,1), Eq. 7
+  double alpha = 0.7;  ///< in (0,1), Eq. 7
   RadiusMode radius_mode = RadiusMode::automatic;
-  double radius = 0.0;                      ///< world units, for RadiusMode::fixed
+  double radius = 0.0;  ///< world units, for RadiusMode::fixed
   std::uint32_t samples_per_pixel = 4;
   Filter filter = Filter::box;
   std::uint32_t seed = 0;
-  std::uint32_t max_depth = 0;              ///< 0: no limit; at most 255
+  std::uint32_t max_depth = 0;  ///< 0: no limit; at most 255
   scene::Camera camera;
-  std::uint64_t tile_hits = 1u << 20;       ///< hit points a tile holds at most; never changes the picture
-  std::uint64_t photon_capacity = 1u << 20; ///< photons stored at a time at most; never changes the picture
+  std::uint64_t tile_hits =
+      1u << 20;  ///< hit points a tile holds at most; never changes the picture
+  std::uint64_t photon_capacity =
+      1u << 20;  ///< photons stored at a time at most; never changes the picture
 };
 
 /// A linear RGB picture, row-major from the top, radiance in W/(m^2 sr).
@@ -45,33 +47,38 @@ struct Picture {
 struct Statistics {
   std::uint64_t triangles = 0, lights = 0, hit_points = 0, tiles = 0;
   std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
-  double initial_radius_min = 0.0, initial_radius_median = 0.0, initial_radius_max = 0.0;  ///< world units
+  double initial_radius_min = 0.0, initial_radius_median = 0.0,
+         initial_radius_max = 0.0;  ///< world units
   std::uint64_t paths_cut = 0;
   std::map<std::string, std::uint64_t> rejected;  ///< non_finite, clamped, overflow
-  std::map<std::string, double> seconds;          ///< pipelines, pilot, eye, photons, grid, update, resolve
-  std::vector<double> pass_seconds;               ///< wall time of each pass
+  std::map<std::string, double> seconds;  ///< pipelines, pilot, eye, photons, grid, update, resolve
+  std::vector<double> pass_seconds;       ///< wall time of each pass
 };
 
 /// Complete state between passes: enough to go on as if never stopped.
 using SavedState = std::vector<std::uint8_t>;
 
-/// One rendering of one scene. Calls come in this order: prepare once (or restore), then any of the others.
+/// One rendering of one scene. Calls come in this order: prepare once (or restore), then any of the
+/// others.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Work before the first pass. `interrupted` is polled between submissions; returns false when it said so,
-  /// after which only `resolve` (which then gives what there is) and destruction are allowed.
+  /// Work before the first pass. `interrupted` is polled between submissions; returns false when it
+  /// said so, after which only `resolve` (which then gives what there is) and destruction are
+  /// allowed.
   virtual bool prepare(const std::function<bool()>& interrupted) = 0;
 
-  /// One pass. When `interrupted` says so the pass in hand is discarded without trace and false returned.
+  /// One pass. When `interrupted` says so the pass in hand is discarded without trace and false
+  /// returned.
   virtual bool advance(const std::function<bool()>& interrupted) = 0;
 
   /// The picture after the passes so far.
   virtual Picture resolve() = 0;
 
   virtual SavedState save_state() = 0;
-  /// Instead of prepare; throws Failure when the state does not belong to this scene and these settings.
+  /// Instead of prepare; throws Failure when the state does not belong to this scene and these
+  /// settings.
   virtual void restore_state(const SavedState& state) = 0;
 
   virtual const Statistics& statistics() = 0;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kEvenShare = 0.01;
 
-shared::Light resolve(const shared::LightRecord& record, const scene::Scene& scene, std::span<const std::uint32_t> order,
-                      glm::vec3 centre, float radius) {
+shared::Light resolve(const shared::LightRecord& record, const scene::Scene& scene,
+                      std::span<const std::uint32_t> order, glm::vec3 centre, float radius) {
   shared::Light light{};
   light.record = record;
   light.bounding_centre = centre;
@@ -65,12 +65,13 @@ AliasTable make_alias_table(std::span<const double> weights) {
   return table;  // what is left over is full to rounding, and is its own alias
 }
 
-LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order, glm::vec3 bounding_centre,
-                            float bounding_radius) {
+LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order,
+                            glm::vec3 bounding_centre, float bounding_radius) {
   LightTable table;
   std::vector<double> powers;
   const auto add = [&](const shared::LightRecord& record) {
-    const glm::dvec3 power = shared::light_power(resolve(record, scene, order, bounding_centre, bounding_radius));
+    const glm::dvec3 power =
+        shared::light_power(resolve(record, scene, order, bounding_centre, bounding_radius));
     const double mean = (power.x + power.y + power.z) / 3.0;
     if (!(mean > 0.0)) return;
     table.records.push_back(record);

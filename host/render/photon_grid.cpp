@@ -16,7 +16,8 @@ constexpr std::uint32_t kMaxAxis = 65536;
 constexpr std::uint64_t kDenseEntries = 1u << 20;
 
 std::uint32_t hashed_entries(std::uint64_t photons) {
-  return static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(2 * photons, 1u << 16, 1u << 22)));
+  return static_cast<std::uint32_t>(
+      std::bit_ceil(std::clamp<std::uint64_t>(2 * photons, 1u << 16, 1u << 22)));
 }
 
 std::uint64_t max_entries(std::uint64_t photons) {
@@ -25,7 +26,8 @@ std::uint64_t max_entries(std::uint64_t photons) {
 
 }  // namespace
 
-PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max, std::uint64_t photon_capacity)
+PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
+                       std::uint64_t photon_capacity)
     : bounds_min_(bounds_min),
       bounds_max_(bounds_max),
       table_entries_(hashed_entries(photon_capacity)),
@@ -33,23 +35,29 @@ PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 boun
       scatter_(device, shaders::grid_scatter),
       scan_(device, max_entries(photon_capacity)),
       cell_count_(device, "cell counts", max_entries(photon_capacity) * 4, gpu::Usage::storage),
-      cell_start_(device, "cell starts", (max_entries(photon_capacity) + 1) * 4, gpu::Usage::storage_and_texels),
-      sorted_position_(device, "sorted photon positions", photon_capacity * 16, gpu::Usage::storage_and_texels),
-      sorted_flux_(device, "sorted photon fluxes", photon_capacity * 16, gpu::Usage::storage_and_texels) {
+      cell_start_(device, "cell starts", (max_entries(photon_capacity) + 1) * 4,
+                  gpu::Usage::storage_and_texels),
+      sorted_position_(device, "sorted photon positions", photon_capacity * 16,
+                       gpu::Usage::storage_and_texels),
+      sorted_flux_(device, "sorted photon fluxes", photon_capacity * 16,
+                   gpu::Usage::storage_and_texels) {
   device.run([&](gpu::Recorder& recorder) { recorder.fill(cell_count_, 0, cell_count_.bytes()); });
 }
 
-void PhotonGrid::build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons, float cell) {
+void PhotonGrid::build(gpu::Device& device, const gpu::BindingTable& photon_table,
+                       std::uint32_t photons, float cell) {
   const glm::vec3 extent = bounds_max_ - bounds_min_;
   const float largest = std::max({extent.x, extent.y, extent.z});
   cell = std::clamp(cell, largest / static_cast<float>(kMaxAxis - 1), std::max(largest, 1e-30f));
   const auto cells = [&](float length) {
-    return static_cast<std::uint32_t>(std::clamp(std::floor(length / cell) + 1.0f, 1.0f, static_cast<float>(kMaxAxis)));
+    return static_cast<std::uint32_t>(
+        std::clamp(std::floor(length / cell) + 1.0f, 1.0f, static_cast<float>(kMaxAxis)));
   };
   constants_.origin = bounds_min_;
   constants_.inverse_cell = 1.0f / cell;
   constants_.size = {cells(extent.x), cells(extent.y), cells(extent.z)};
-  const std::uint64_t dense = std::uint64_t{constants_.size.x} * constants_.size.y * constants_.size.z;
+  const std::uint64_t dense =
+      std::uint64_t{constants_.size.x} * constants_.size.y * constants_.size.z;
   std::uint32_t entries = 0;
   if (dense <= kDenseEntries) {
     constants_.table_mask = PPM_GRID_DENSE;

@@ -12,11 +12,13 @@ namespace ppm::render {
 class PhotonGrid {
  public:
   /// Over the box [bounds_min, bounds_max] (working frame) for up to `photon_capacity` photons.
-  PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max, std::uint64_t photon_capacity);
+  PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
+             std::uint64_t photon_capacity);
 
-  /// Sorts `photons` photons (bound in `photon_table`) into cells of about `cell` working units. The size of cells
-  /// decides how fast searches are, never what they find.
-  void build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons, float cell);
+  /// Sorts `photons` photons (bound in `photon_table`) into cells of about `cell` working units.
+  /// The size of cells decides how fast searches are, never what they find.
+  void build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons,
+             float cell);
 
   void bind(gpu::BindingTable& table) const;
   const shared::GridConstants& constants() const { return constants_; }
@@ -30,8 +32,9 @@ class PhotonGrid {
   shared::GridConstants constants_{};
 };
 
-/// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their 90th percentile, so
-/// that a few large discs do not make everyone else's cells too large. 0 when there are none.
+/// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their
+/// 90th percentile, so that a few large discs do not make everyone else's cells too large. 0 when
+/// there are none.
 float cell_from_radii(std::span<const std::uint32_t> histogram);
 
 }  // namespace ppm::render

@@ -7,23 +7,26 @@
 namespace ppm::render {
 namespace {
 
-// Bounces that one dispatch follows a path. Few, while many paths are alive and lanes would idle beside longer
-// ones; many at the end, when rounds of few paths would cost more to submit than to trace.
+// Bounces that one dispatch follows a path. Few, while many paths are alive and lanes would idle
+// beside longer ones; many at the end, when rounds of few paths would cost more to submit than to
+// trace.
 constexpr std::uint32_t kBouncesOfMany = 1;
 constexpr std::uint32_t kBouncesOfFew = 8;
 constexpr std::uint32_t kFewPaths = 4096;
 
 }  // namespace
 
-PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t photon_capacity,
-                           std::uint64_t path_capacity)
+PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene,
+                           std::uint64_t photon_capacity, std::uint64_t path_capacity)
     : device_(device),
       kernel_(device, shaders::photon),
       table_(scene),
       photon_capacity_(photon_capacity),
       path_capacity_(path_capacity),
-      queue_{{device, "photon paths A", path_capacity * sizeof(shared::PhotonPath), gpu::Usage::storage},
-             {device, "photon paths B", path_capacity * sizeof(shared::PhotonPath), gpu::Usage::storage}},
+      queue_{{device, "photon paths A", path_capacity * sizeof(shared::PhotonPath),
+              gpu::Usage::storage},
+             {device, "photon paths B", path_capacity * sizeof(shared::PhotonPath),
+              gpu::Usage::storage}},
       position_(device, "photon positions", photon_capacity * 16, gpu::Usage::storage_and_texels),
       flux_(device, "photon fluxes", photon_capacity * 16, gpu::Usage::storage_and_texels),
       counters_(device) {
@@ -36,8 +39,9 @@ void PhotonTracer::bind_photons(gpu::BindingTable& table) const {
   table.set(PPM_BIND_PHOTON_FLUX, flux_);
 }
 
-PhotonTracer::Result PhotonTracer::trace(std::uint32_t stream, std::uint32_t pass, std::uint32_t first_path,
-                                         std::uint32_t paths, const std::function<bool()>& interrupted) {
+PhotonTracer::Result PhotonTracer::trace(std::uint32_t stream, std::uint32_t pass,
+                                         std::uint32_t first_path, std::uint32_t paths,
+                                         const std::function<bool()>& interrupted) {
   shared::PhotonPush push{};
   push.pass = pass;
   push.emit_first = first_path;

@@ -18,10 +18,11 @@ class PhotonTracer {
 
   enum class Result { done, overflow, interrupted };
 
-  /// Traces paths [first_path, first_path + paths) of the pass to their ends. done: all their photons are stored.
-  /// overflow: they do not fit; what is stored means nothing and fewer paths must be tried.
-  Result trace(std::uint32_t stream, std::uint32_t pass, std::uint32_t first_path, std::uint32_t paths,
-               const std::function<bool()>& interrupted);
+  /// Traces paths [first_path, first_path + paths) of the pass to their ends. done: all their
+  /// photons are stored. overflow: they do not fit; what is stored means nothing and fewer paths
+  /// must be tried.
+  Result trace(std::uint32_t stream, std::uint32_t pass, std::uint32_t first_path,
+               std::uint32_t paths, const std::function<bool()>& interrupted);
 
   std::uint32_t photon_count() const { return photon_count_; }
   std::uint64_t path_capacity() const { return path_capacity_; }

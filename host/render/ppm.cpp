@@ -35,8 +35,8 @@ gpu::BindingTable scene_table(const SceneBuffers& buffers) {
 
 }  // namespace
 
-PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
-                             unsigned threads)
+PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene,
+                             gpu::Device& device, Log& log, unsigned threads)
     : settings_(settings),
       scene_(scene),
       device_(device),
@@ -47,13 +47,15 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       tracer_(device, table_, photon_capacity(settings, device), kPathCapacity),
       grid_(device, scene.bounds_min, scene.bounds_max, photon_capacity(settings, device)),
       estimator_(device, table_, settings.tile_hits),
-      chunk_paths_(static_cast<std::uint32_t>(std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
+      chunk_paths_(static_cast<std::uint32_t>(
+          std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
   if (std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel > 0xffffffffu) {
-    throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths", "make the picture smaller or lower --spp");
+    throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths",
+                  "make the picture smaller or lower --spp");
   }
   if (settings.photons_per_pass > 0xffffffffu) {
     throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
@@ -81,11 +83,14 @@ bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
       if (result == EyePass::Result::done) break;
       if (pixels == 1) {
         throw Failure("", "--spp " + std::to_string(settings_.samples_per_pixel),
-                      "the hit points of one pixel do not fit a tile", "lower --spp or raise --tile-hits");
+                      "the hit points of one pixel do not fit a tile",
+                      "lower --spp or raise --tile-hits");
       }
       pixels = (pixels + 1) / 2;
     }
-    count_rejected(eye.counters());
+    Tally tally;
+    tally.add(eye.counters());
+    record(tally);
     statistics_.hit_points += tile.hits;
     tiles_.push_back(std::move(tile));
     statistics_.tiles = tiles_.size();
@@ -109,8 +114,8 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
 
 bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
   float radius = kLargestRadius * buffers_.constants().bounding_radius;
-  // The pilot's photons are a set of their own: radii must not depend on the photons that are estimated with them.
-  // All rounds see the same photons, as many as one chunk holds.
+  // The pilot's photons are a set of their own: radii must not depend on the photons that are
+  // estimated with them. All rounds see the same photons, as many as one chunk holds.
   if (buffers_.light_count() > 0) {
     for (;;) {
       const auto result = tracer_.trace(PPM_STREAM_PILOT, 0, 0, chunk_paths_, interrupted);
@@ -126,16 +131,18 @@ bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
     grid_.build(device_, photons, tracer_.photon_count(), radius);
     const bool last = round + 1 == kPilotRounds;
     std::uint64_t undecided = 0;
-    for (const HitTile& tile : tiles_) undecided += estimator_.pilot_round(tile, grid_, round, last, radius);
+    for (const HitTile& tile : tiles_)
+      undecided += estimator_.pilot_round(tile, grid_, round, last, radius);
     if (undecided == 0) break;
   }
   return true;
 }
 
 template <class Use>
-bool PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell,
-                                   const std::function<bool()>& interrupted, const Use& use) {
+bool PpmIntegrator::for_each_chunk(float cell, const std::function<bool()>& interrupted,
+                                   const Use& use) {
   gpu::BindingTable photons;
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
   tracer_.bind_photons(photons);
   const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
   for (std::uint32_t first = 0; first < paths;) {
@@ -143,7 +150,7 @@ bool PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass, flo
     PhotonTracer::Result result;
     {
       const Stopwatch stopwatch(statistics_.seconds["photons"]);
-      result = tracer_.trace(stream, pass, first, chunk, interrupted);
+      result = tracer_.trace(PPM_STREAM_PHOTON, pass, first, chunk, interrupted);
     }
     if (result == PhotonTracer::Result::interrupted) return false;
     if (result == PhotonTracer::Result::overflow) {
@@ -162,35 +169,31 @@ bool PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass, flo
 
 bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
   const double start = clock_seconds();
-  std::uint64_t stored = 0;
+  Tally tally;
   const float cell = estimator_.cell_size();
-  const bool lit = buffers_.light_count() > 0 && cell > 0.0f;
-  Statistics before = statistics_;
-  const auto use = [&] {
-    const Stopwatch stopwatch(statistics_.seconds["update"]);
-    for (const HitTile& tile : tiles_) {
-      if (interrupted()) return false;
-      const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
-      statistics_.rejected["overflow"] += rejected.overflow;
-      statistics_.rejected["clamped"] += rejected.clamped;
+  if (buffers_.light_count() > 0 && cell > 0.0f) {
+    const auto gather = [&] {
+      const Stopwatch stopwatch(statistics_.seconds["update"]);
+      for (const HitTile& tile : tiles_) {
+        if (interrupted()) return false;
+        const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
+        tally.overflow += rejected.overflow;
+        tally.clamped += rejected.clamped;
+      }
+      tally.photons_stored += tracer_.photon_count();
+      tally.add(tracer_.counters());
+      return true;
+    };
+    if (!for_each_chunk(cell, interrupted, gather)) {
+      estimator_.clear_sums(tiles_);
+      return false;
     }
-    stored += tracer_.photon_count();
-    count_rejected(tracer_.counters());
-    return true;
-  };
-  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
-  if (lit && !for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, use)) {
-    estimator_.clear_sums(tiles_);
-    statistics_ = std::move(before);
-    return false;
-  }
-  {
     const Stopwatch stopwatch(statistics_.seconds["update"]);
-    if (lit) estimator_.update(tiles_, static_cast<float>(settings_.alpha));
+    estimator_.update(tiles_, static_cast<float>(settings_.alpha));
   }
+  record(tally);
   statistics_.passes += 1;
   statistics_.photons_emitted += settings_.photons_per_pass;
-  statistics_.photons_stored += stored;
   statistics_.pass_seconds.push_back(clock_seconds() - start);
   return true;
 }
@@ -199,12 +202,15 @@ Picture PpmIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
   Picture picture{settings_.width, settings_.height,
                   std::vector<float>(3ull * settings_.width * settings_.height, 0.0f)};
-  const double emitted = static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
+  const double emitted =
+      static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
   const auto scale = static_cast<float>(buffers_.total_power() / emitted);
   for (const HitTile& tile : tiles_) {
-    const std::vector<glm::vec4> pixels = estimator_.resolve(tile, settings_.samples_per_pixel, scale);
+    const std::vector<glm::vec4> pixels =
+        estimator_.resolve(tile, settings_.samples_per_pixel, scale);
     for (std::uint32_t i = 0; i < tile.pixels; ++i) {
-      const glm::uvec2 at = shared::pixel_position(tile.first_pixel + i, settings_.width, settings_.height);
+      const glm::uvec2 at =
+          shared::pixel_position(tile.first_pixel + i, settings_.width, settings_.height);
       float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings_.width + at.x)];
       rgb[0] = pixels[i].x;
       rgb[1] = pixels[i].y;
@@ -214,10 +220,18 @@ Picture PpmIntegrator::resolve() {
   return picture;
 }
 
-void PpmIntegrator::count_rejected(const Counters& counters) {
-  statistics_.paths_cut += counters[PPM_COUNTER_PATHS_CUT];
-  statistics_.rejected["non_finite"] += counters[PPM_COUNTER_NON_FINITE];
-  statistics_.rejected["clamped"] += counters[PPM_COUNTER_CLAMPED];
+void PpmIntegrator::Tally::add(const Counters& counters) {
+  paths_cut += counters[PPM_COUNTER_PATHS_CUT];
+  non_finite += counters[PPM_COUNTER_NON_FINITE];
+  clamped += counters[PPM_COUNTER_CLAMPED];
+}
+
+void PpmIntegrator::record(const Tally& tally) {
+  statistics_.photons_stored += tally.photons_stored;
+  statistics_.paths_cut += tally.paths_cut;
+  statistics_.rejected["non_finite"] += tally.non_finite;
+  statistics_.rejected["clamped"] += tally.clamped;
+  statistics_.rejected["overflow"] += tally.overflow;
 }
 
 void PpmIntegrator::record_initial_radii() {
@@ -228,7 +242,9 @@ void PpmIntegrator::record_initial_radii() {
     }
   }
   if (radii2.empty()) return;
-  const auto to_world = [&](float radius2) { return std::sqrt(static_cast<double>(radius2)) / scene_.frame.scale; };
+  const auto to_world = [&](float radius2) {
+    return std::sqrt(static_cast<double>(radius2)) / scene_.frame.scale;
+  };
   const auto [least, most] = std::minmax_element(radii2.begin(), radii2.end());
   statistics_.initial_radius_min = to_world(*least);
   statistics_.initial_radius_max = to_world(*most);
@@ -237,6 +253,8 @@ void PpmIntegrator::record_initial_radii() {
   statistics_.initial_radius_median = to_world(*middle);
 }
 
-const Statistics& PpmIntegrator::statistics() { return statistics_; }
+const Statistics& PpmIntegrator::statistics() {
+  return statistics_;
+}
 
 }  // namespace ppm::render

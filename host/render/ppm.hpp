@@ -14,7 +14,8 @@ namespace ppm::render {
 
 class PpmIntegrator final : public Integrator {
  public:
-  PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log, unsigned threads);
+  PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
+                unsigned threads);
 
   bool prepare(const std::function<bool()>& interrupted) override;
   bool advance(const std::function<bool()>& interrupted) override;
@@ -27,13 +28,18 @@ class PpmIntegrator final : public Integrator {
   bool trace_eye_paths(const std::function<bool()>& interrupted);
   bool find_initial_radii(const std::function<bool()>& interrupted);
   bool run_pilot(const std::function<bool()>& interrupted);
-  /// Traces all paths of a pass in chunks that fit, and hands the sorted photons of each to `use`. Photons are in
-  /// cells of `cell` working units. False when interrupted.
+  /// Traces all paths of the next pass in chunks that fit, and calls `use` with the photons of each
+  /// in the grid, in cells of `cell` working units. False when interrupted, by itself or by `use`.
   template <class Use>
-  bool for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell, const std::function<bool()>& interrupted,
-                      const Use& use);
+  bool for_each_chunk(float cell, const std::function<bool()>& interrupted, const Use& use);
   void record_initial_radii();
-  void count_rejected(const Counters& counters);
+
+  /// What a pass or tile adds to the statistics once it is complete.
+  struct Tally {
+    std::uint64_t photons_stored = 0, paths_cut = 0, non_finite = 0, clamped = 0, overflow = 0;
+    void add(const Counters& counters);
+  };
+  void record(const Tally& tally);
   std::uint64_t fingerprint() const;
 
   Settings settings_;

@@ -8,8 +8,8 @@
 namespace ppm::render {
 namespace {
 
-// Everything else follows from scene and settings: geometry of hit points by tracing the eye paths again, photons by
-// their numbers.
+// Everything else follows from scene and settings: geometry of hit points by tracing the eye paths
+// again, photons by their numbers.
 struct Header {
   std::uint64_t fingerprint;
   std::uint64_t passes, photons_emitted, photons_stored;
@@ -54,7 +54,8 @@ std::uint64_t PpmIntegrator::fingerprint() const {
   hash.add(settings_.radius);
   hash.add(settings_.samples_per_pixel);
   hash.add(static_cast<std::uint32_t>(settings_.filter));
-  hash.add(&buffers_.constants(), sizeof(shared::SceneConstants));  // camera, seed, depth, lights' power
+  hash.add(&buffers_.constants(),
+           sizeof(shared::SceneConstants));  // camera, seed, depth, lights' power
   for (const scene::Triangle& triangle : scene_.triangles) {
     for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
     hash.add(triangle.material);
@@ -64,11 +65,12 @@ std::uint64_t PpmIntegrator::fingerprint() const {
 
 SavedState PpmIntegrator::save_state() {
   SavedState state;
-  const Header header{fingerprint(), statistics_.passes, statistics_.photons_emitted, statistics_.photons_stored,
-                      statistics_.hit_points};
+  const Header header{fingerprint(), statistics_.passes, statistics_.photons_emitted,
+                      statistics_.photons_stored, statistics_.hit_points};
   append(state, &header, sizeof header);
   for (const HitTile& tile : tiles_) {
-    // By record, not by tile: how the picture is cut into tiles may differ when the rendering goes on.
+    // By record, not by tile: how the picture is cut into tiles may differ when the rendering goes
+    // on.
     const auto statistics = tile.statistics.download<glm::vec4>(tile.hits);
     const auto counts = tile.photon_counts.download<std::uint32_t>(tile.hits);
     for (std::uint32_t i = 0; i < tile.hits; ++i) {

@@ -11,8 +11,8 @@
 namespace ppm::render {
 namespace {
 
-// Ends paths that no random choice would: light caught between surfaces that absorb nothing. Every path it cuts
-// is counted.
+// Ends paths that no random choice would: light caught between surfaces that absorb nothing. Every
+// path it cuts is counted.
 constexpr std::uint32_t kPhotonBounceCap = 1024;
 constexpr std::uint32_t kEyeBounceCap = 250;  // a hit point keeps its count in 8 bits
 constexpr std::size_t kMaxMaterials = 65535;  // a path keeps its medium in 16 bits
@@ -27,21 +27,25 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.ior = material.ior;
   // KHR_materials_specular, section "Implementation".
   const float base = (material.ior - 1.0f) / (material.ior + 1.0f);
-  record.specular_f0 = glm::min(base * base * material.specular_color, glm::vec3(1.0f)) * material.specular;
+  record.specular_f0 =
+      glm::min(base * base * material.specular_color, glm::vec3(1.0f)) * material.specular;
   record.specular_f90 = material.specular;
   record.emission = material.emission;
-  record.flags = (material.double_sided ? PPM_MATERIAL_DOUBLE_SIDED : 0u) | (material.solid ? PPM_MATERIAL_SOLID : 0u);
+  record.flags = (material.double_sided ? PPM_MATERIAL_DOUBLE_SIDED : 0u) |
+                 (material.solid ? PPM_MATERIAL_SOLID : 0u);
   if (material.solid && std::isfinite(material.attenuation_distance)) {
-    // Transmittance attenuation_color after attenuation_distance; a channel of 0 lets next to nothing through.
-    record.absorption =
-        -glm::log(glm::max(material.attenuation_color, glm::vec3(1e-30f))) / material.attenuation_distance;
+    // Transmittance attenuation_color after attenuation_distance; a channel of 0 lets next to
+    // nothing through.
+    record.absorption = -glm::log(glm::max(material.attenuation_color, glm::vec3(1e-30f))) /
+                        material.attenuation_distance;
   }
   return record;
 }
 
 shared::TriangleShading shading_record(const scene::Triangle& triangle) {
   const auto color = [](const glm::vec3& c) {
-    return glm::uvec2(glm::packUnorm2x16(glm::vec2(c.x, c.y)), glm::packUnorm2x16(glm::vec2(c.z, 1.0f)));
+    return glm::uvec2(glm::packUnorm2x16(glm::vec2(c.x, c.y)),
+                      glm::packUnorm2x16(glm::vec2(c.z, 1.0f)));
   };
   const auto& corners = triangle.corners;
   shared::TriangleShading record{};
@@ -78,16 +82,19 @@ shared::SceneConstants camera_constants(const Settings& settings) {
 }
 
 template <class Record>
-gpu::Buffer texel_buffer(gpu::Device& device, const char* name, const std::vector<Record>& records) {
+gpu::Buffer texel_buffer(gpu::Device& device, const char* name,
+                         const std::vector<Record>& records) {
   return gpu::make_buffer(device, name, std::span<const Record>(records), gpu::Usage::texels);
 }
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device, unsigned threads)
+SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
+                           unsigned threads)
     : constants_(camera_constants(settings)) {
   if (scene.materials.size() > kMaxMaterials) {
-    throw Failure(scene.file, "materials", std::to_string(scene.materials.size()) + " materials are more than 65535",
+    throw Failure(scene.file, "materials",
+                  std::to_string(scene.materials.size()) + " materials are more than 65535",
                   "merge materials");
   }
   const auto start = std::chrono::steady_clock::now();
@@ -112,26 +119,30 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   shading.reserve(bvh.triangle_order.size());
   for (const std::uint32_t index : bvh.triangle_order) {
     const scene::Triangle& triangle = scene.triangles[index];
-    positions.push_back({triangle.corners[0].position, triangle.material, triangle.corners[1].position, 0,
-                         triangle.corners[2].position, 0});
+    positions.push_back({triangle.corners[0].position, triangle.material,
+                         triangle.corners[1].position, 0, triangle.corners[2].position, 0});
     shading.push_back(shading_record(triangle));
   }
   std::vector<shared::MaterialRecord> materials;
-  for (const scene::Material& material : scene.materials) materials.push_back(material_record(material));
+  for (const scene::Material& material : scene.materials)
+    materials.push_back(material_record(material));
 
   std::vector<shared::TextureRecord> textures;
   std::vector<glm::u16vec4> texels;
   for (const scene::Texture& texture : scene.textures) {
     const auto sampling = static_cast<std::uint32_t>(texture.wrap_s) |
-                          (static_cast<std::uint32_t>(texture.wrap_t) << 2) | (texture.nearest ? 16u : 0u);
-    textures.push_back({texture.width, texture.height, static_cast<std::uint32_t>(texels.size()), sampling});
+                          (static_cast<std::uint32_t>(texture.wrap_t) << 2) |
+                          (texture.nearest ? 16u : 0u);
+    textures.push_back(
+        {texture.width, texture.height, static_cast<std::uint32_t>(texels.size()), sampling});
     texels.insert(texels.end(), texture.texels.begin(), texture.texels.end());
     if (texels.size() > 0xffffffffu) {
       throw Failure(scene.file, "textures", "more than 2^32 texels in all", "scale textures down");
     }
   }
 
-  constants_buffer_ = gpu::make_buffer(device, "scene constants", std::span<const shared::SceneConstants>(&constants_, 1),
+  constants_buffer_ = gpu::make_buffer(device, "scene constants",
+                                       std::span<const shared::SceneConstants>(&constants_, 1),
                                        gpu::Usage::uniform);
   nodes_ = texel_buffer(device, "BVH nodes", bvh.nodes);
   positions_ = texel_buffer(device, "triangle positions", positions);

@@ -10,10 +10,12 @@
 
 namespace ppm::render {
 
-/// Builds the BVH, uploads everything and binds it. Throws Failure when a limit of the device is passed.
+/// Builds the BVH, uploads everything and binds it. Throws Failure when a limit of the device is
+/// passed.
 class SceneBuffers {
  public:
-  SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device, unsigned threads);
+  SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
+               unsigned threads);
 
   void bind(gpu::BindingTable& table) const;
 
@@ -26,7 +28,8 @@ class SceneBuffers {
   shared::SceneConstants constants_{};
   double total_power_ = 0.0;
   double bvh_seconds_ = 0.0;
-  gpu::Buffer constants_buffer_, nodes_, positions_, shading_, materials_, textures_, texels_, lights_;
+  gpu::Buffer constants_buffer_, nodes_, positions_, shading_, materials_, textures_, texels_,
+      lights_;
 };
 
 }  // namespace ppm::render

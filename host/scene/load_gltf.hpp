@@ -10,10 +10,11 @@ namespace ppm::scene {
 
 /// Reads the file's default scene (the first if none is named; all root nodes if there are none).
 ///
-/// What the renderer does not understand is warned of once per kind through `log`. Throws `Failure` naming
-/// the file, the JSON path and the remedy when the file is missing, malformed, refers outside itself, has
-/// non-finite numbers where they matter, requires an unknown extension, or has no triangles.
-/// Never reads outside the file's buffers and never allocates in proportion to a number the file merely claims.
+/// What the renderer does not understand is warned of once per kind through `log`. Throws `Failure`
+/// naming the file, the JSON path and the remedy when the file is missing, malformed, refers
+/// outside itself, has non-finite numbers where they matter, requires an unknown extension, or has
+/// no triangles. Never reads outside the file's buffers and never allocates in proportion to a
+/// number the file merely claims.
 Scene load_gltf(const std::filesystem::path& file, Log& log);
 
 /// A camera that sees all triangles, for files without one: 45 degrees, from +Z slightly above.

@@ -1,9 +1,10 @@
 // The scene as plain values: what a loader yields and everything else reads.
 //
-// Lengths are in the WORKING FRAME: x_working = (x_world - frame.centre) * frame.scale, with scale a power of
-// two chosen so that all triangles lie within [-1,1]^3. This is what lets no absolute epsilon depend on the
-// file's units or origin. Radiance and irradiance are the same in both frames; a radiant intensity (W/sr)
-// is multiplied by scale^2, so that intensity / distance^2 is unchanged.
+// Lengths are in the WORKING FRAME: x_working = (x_world - frame.centre) * frame.scale, with scale
+// a power of two chosen so that all triangles lie within [-1,1]^3. This is what lets no absolute
+// epsilon depend on the file's units or origin. Radiance and irradiance are the same in both
+// frames; a radiant intensity (W/sr) is multiplied by scale^2, so that intensity / distance^2 is
+// unchanged.
 #pragma once
 
 #include <array>
@@ -27,10 +28,10 @@ struct Frame {
 
 /// One corner of a triangle.
 struct Corner {
-  glm::vec3 position;           ///< working frame
-  glm::vec3 normal;             ///< unit shading normal; the geometric one where the file has none
-  glm::vec2 texcoord{0.0f};     ///< TEXCOORD_0
-  glm::vec3 color{1.0f};        ///< COLOR_0, linear, in [0,1]; multiplies the base colour
+  glm::vec3 position;        ///< working frame
+  glm::vec3 normal;          ///< unit shading normal; the geometric one where the file has none
+  glm::vec2 texcoord{0.0f};  ///< TEXCOORD_0
+  glm::vec3 color{1.0f};     ///< COLOR_0, linear, in [0,1]; multiplies the base colour
 };
 
 /// A triangle with positive area. Its front side is where the corners run counter-clockwise; the
@@ -48,26 +49,27 @@ struct Texture {
   std::string name;
   std::uint32_t width = 0, height = 0;
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
-  bool nearest = false;  ///< magFilter NEAREST; otherwise bilinear
+  bool nearest = false;              ///< magFilter NEAREST; otherwise bilinear
   std::vector<glm::u16vec4> texels;  ///< RGBA as IEEE half floats
 };
 
-/// A surface in glTF's terms, extensions folded in. One per glTF material that is used, plus glTF's default.
+/// A surface in glTF's terms, extensions folded in. One per glTF material that is used, plus glTF's
+/// default.
 struct Material {
   std::string name;
-  glm::vec3 base_color{1.0f};                 ///< linear, in [0,1]
+  glm::vec3 base_color{1.0f};                       ///< linear, in [0,1]
   std::optional<std::uint32_t> base_color_texture;  ///< index into Scene::textures
-  float metallic = 1.0f;                      ///< in [0,1]
-  float roughness = 1.0f;                     ///< perceptual, in [0,1]; GGX alpha is its square
-  float specular = 1.0f;                      ///< KHR_materials_specular: 0 makes a dielectric Lambertian
-  glm::vec3 specular_color{1.0f};             ///< idem, multiplies the reflectance at normal incidence
-  float ior = 1.5f;                           ///< KHR_materials_ior, at least 1
-  float transmission = 0.0f;                  ///< KHR_materials_transmission, in [0,1]
-  bool solid = false;                         ///< KHR_materials_volume with thickness > 0: refracts, attenuates
-  glm::vec3 attenuation_color{1.0f};          ///< transmittance after attenuation_distance
+  float metallic = 1.0f;                            ///< in [0,1]
+  float roughness = 1.0f;          ///< perceptual, in [0,1]; GGX alpha is its square
+  float specular = 1.0f;           ///< KHR_materials_specular: 0 makes a dielectric Lambertian
+  glm::vec3 specular_color{1.0f};  ///< idem, multiplies the reflectance at normal incidence
+  float ior = 1.5f;                ///< KHR_materials_ior, at least 1
+  float transmission = 0.0f;       ///< KHR_materials_transmission, in [0,1]
+  bool solid = false;  ///< KHR_materials_volume with thickness > 0: refracts, attenuates
+  glm::vec3 attenuation_color{1.0f};  ///< transmittance after attenuation_distance
   float attenuation_distance = std::numeric_limits<float>::infinity();  ///< working frame
-  glm::vec3 emission{0.0f};                   ///< emitted radiance, W/(m^2 sr) a channel
-  bool double_sided = false;                  ///< emits from both sides (every surface scatters on both)
+  glm::vec3 emission{0.0f};   ///< emitted radiance, W/(m^2 sr) a channel
+  bool double_sided = false;  ///< emits from both sides (every surface scatters on both)
 };
 
 enum class PunctualKind { point, spot, directional };
@@ -76,10 +78,10 @@ enum class PunctualKind { point, spot, directional };
 struct PunctualLight {
   std::string name;
   PunctualKind kind = PunctualKind::point;
-  glm::vec3 position{0.0f};    ///< working frame; point and spot
-  glm::vec3 direction{0.0f};   ///< unit, the way the light travels; spot and directional
-  /// point, spot: radiant intensity on the axis in W/sr times frame.scale^2; directional: irradiance on a
-  /// plane facing the light in W/m^2.
+  glm::vec3 position{0.0f};   ///< working frame; point and spot
+  glm::vec3 direction{0.0f};  ///< unit, the way the light travels; spot and directional
+  /// point, spot: radiant intensity on the axis in W/sr times frame.scale^2; directional:
+  /// irradiance on a plane facing the light in W/m^2.
   glm::vec3 intensity{0.0f};
   float inner_cone_angle = 0.0f;  ///< radians from the axis; spot
   float outer_cone_angle = 0.0f;  ///< radians from the axis, in (inner, pi/2]; spot
@@ -88,10 +90,10 @@ struct PunctualLight {
 /// A pinhole camera that looks along `forward`.
 struct Camera {
   std::string name;
-  glm::dvec3 position{0.0};  ///< working frame
+  glm::dvec3 position{0.0};                                                     ///< working frame
   glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, forward{0.0, 0.0, -1.0};  ///< orthonormal
-  double yfov = 0.7853981633974483;     ///< full vertical angle, radians, in (0, pi)
-  std::optional<double> aspect;         ///< width / height, where the file gives one
+  double yfov = 0.7853981633974483;  ///< full vertical angle, radians, in (0, pi)
+  std::optional<double> aspect;      ///< width / height, where the file gives one
 };
 
 struct Scene {

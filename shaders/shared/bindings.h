@@ -1,8 +1,8 @@
 // One number for every buffer the kernels see, in descriptor set 0.
 //
-// A number names a buffer, not a descriptor type: a kernel declares it as a storage buffer where it writes
-// and as a uniform texel buffer where it only reads (1.3-2 times faster on lavapipe). The host derives each
-// kernel's set layout from its SPIR-V and binds buffers by these numbers.
+// A number names a buffer, not a descriptor type: a kernel declares it as a storage buffer where it
+// writes and as a uniform texel buffer where it only reads (1.3-2 times faster on lavapipe). The
+// host derives each kernel's set layout from its SPIR-V and binds buffers by these numbers.
 #ifndef PPM_SHARED_BINDINGS_H
 #define PPM_SHARED_BINDINGS_H
 
@@ -17,41 +17,42 @@
 #define PPM_BIND_LIGHTS 7              // LightRecord, PPM_LIGHT_TEXELS each
 
 // Counters and problems that the host reads back.
-#define PPM_BIND_COUNTERS 8            // uint[PPM_COUNTER_COUNT]
+#define PPM_BIND_COUNTERS 8  // uint[PPM_COUNTER_COUNT]
 
 // Photon pass.
-#define PPM_BIND_PATHS_IN 9            // PhotonPath: those to be continued
-#define PPM_BIND_PATHS_OUT 10          // PhotonPath: those that go on
-#define PPM_BIND_PHOTON_POSITION 11    // uvec4: position, direction
-#define PPM_BIND_PHOTON_FLUX 12        // uvec4: flux and depth, surface normal
-#define PPM_BIND_SORTED_POSITION 13    // the same in cell order
+#define PPM_BIND_PATHS_IN 9          // PhotonPath: those to be continued
+#define PPM_BIND_PATHS_OUT 10        // PhotonPath: those that go on
+#define PPM_BIND_PHOTON_POSITION 11  // uvec4: position, direction
+#define PPM_BIND_PHOTON_FLUX 12      // uvec4: flux and depth, surface normal
+#define PPM_BIND_SORTED_POSITION 13  // the same in cell order
 #define PPM_BIND_SORTED_FLUX 14
 
 // Counting sorts: photons by grid cell, hit points by pixel.
-#define PPM_BIND_CELL_COUNT 15         // uint a cell
-#define PPM_BIND_CELL_START 16         // uint a cell, one more at the end
-#define PPM_BIND_SCAN_SUMS 17          // uint a chunk of the scan
+#define PPM_BIND_CELL_COUNT 15  // uint a cell
+#define PPM_BIND_CELL_START 16  // uint a cell, one more at the end
+#define PPM_BIND_SCAN_SUMS 17   // uint a chunk of the scan
 
 // Eye pass.
-#define PPM_BIND_EYE_IN 18             // EyePath
-#define PPM_BIND_EYE_OUT 19            // EyePath
-#define PPM_BIND_STAGED_HITS 20        // HitPoint as found
-#define PPM_BIND_STAGED_KEYS 21        // StagedKey
-#define PPM_BIND_ORDER 22              // uint: staged hit of each slot
+#define PPM_BIND_EYE_IN 18       // EyePath
+#define PPM_BIND_EYE_OUT 19      // EyePath
+#define PPM_BIND_STAGED_HITS 20  // HitPoint as found
+#define PPM_BIND_STAGED_KEYS 21  // StagedKey
+#define PPM_BIND_ORDER 22        // uint: staged hit of each slot
 
 // A tile's hit points and their statistics.
-#define PPM_BIND_HITS_0 23             // HitPoint, plane 0 .. 3: one uvec4 each
+#define PPM_BIND_HITS_0 23  // HitPoint, plane 0 .. 3: one uvec4 each
 #define PPM_BIND_HITS_1 24
 #define PPM_BIND_HITS_2 25
 #define PPM_BIND_HITS_3 26
-#define PPM_BIND_SAMPLE_START 27       // uint: first hit point of each (pixel, sample), one more at the end
-#define PPM_BIND_STATISTICS 28         // vec4: lambda, radius squared
-#define PPM_BIND_PHOTON_COUNTS 29      // uint: C, all photons ever accepted
-#define PPM_BIND_GATHER_SUMS 30        // GatherSum
-#define PPM_BIND_CONTINUE_IN 31        // GatherCursor: searches to be continued
-#define PPM_BIND_CONTINUE_OUT 32       // GatherCursor
-#define PPM_BIND_PIXELS 33             // vec4: radiance of each pixel of the tile
-#define PPM_BIND_RADIUS_HISTOGRAM 34   // uint[PPM_RADIUS_BINS]
+#define PPM_BIND_SAMPLE_START \
+  27  // uint: first hit point of each (pixel, sample), one more at the end
+#define PPM_BIND_STATISTICS 28        // vec4: lambda, radius squared
+#define PPM_BIND_PHOTON_COUNTS 29     // uint: C, all photons ever accepted
+#define PPM_BIND_GATHER_SUMS 30       // GatherSum
+#define PPM_BIND_CONTINUE_IN 31       // GatherCursor: searches to be continued
+#define PPM_BIND_CONTINUE_OUT 32      // GatherCursor
+#define PPM_BIND_PIXELS 33            // vec4: radiance of each pixel of the tile
+#define PPM_BIND_RADIUS_HISTOGRAM 34  // uint[PPM_RADIUS_BINS]
 
 // For tests' own kernels.
 #define PPM_BIND_TEST_0 40

@@ -1,10 +1,12 @@
-// What a surface does to light: the lobes of a material at one point, for both directions of transport.
+// What a surface does to light: the lobes of a material at one point, for both directions of
+// transport.
 //
-// Directions are in the shading frame with the normal on the side of wo, and both point away from the surface.
-// No value includes a cosine unless its name says so; densities are per solid angle.
+// Directions are in the shading frame with the normal on the side of wo, and both point away from
+// the surface. No value includes a cosine unless its name says so; densities are per solid angle.
 //
-// Specular here means a delta lobe: the mirror reflection of a smooth surface, and glass. All other lobes are
-// "non-specular": a surface that has any of them stores hit points and photons [HOJ08 section 3.1].
+// Specular here means a delta lobe: the mirror reflection of a smooth surface, and glass. All other
+// lobes are "non-specular": a surface that has any of them stores hit points and photons [HOJ08
+// section 3.1].
 #ifndef PPM_SHARED_BSDF_H
 #define PPM_SHARED_BSDF_H
 
@@ -13,17 +15,17 @@
 
 PPM_NAMESPACE_BEGIN
 
-// Below this perceptual roughness the GGX lobe counts as a delta. At 0.03 its peak is 1/(4 pi alpha^2) = 1e5,
-// more than progressive radii resolve in any reasonable time.
+// Below this perceptual roughness the GGX lobe counts as a delta. At 0.03 its peak is 1/(4 pi
+// alpha^2) = 1e5, more than progressive radii resolve in any reasonable time.
 #define PPM_DELTA_ROUGHNESS 0.03f
 
 struct Bsdf {
   DiffuseLobe diffuse;
-  GgxLobe glossy;            // a mirror when alpha is 0
-  float glass;               // share of the surface that is glass
-  vec3 glass_tint;           // of what glass transmits
-  float eta;                 // index beyond the surface over index on the side of wo; 1 for a thin sheet
-  float thin_ior;            // index of a thin sheet, 0 if not one
+  GgxLobe glossy;   // a mirror when alpha is 0
+  float glass;      // share of the surface that is glass
+  vec3 glass_tint;  // of what glass transmits
+  float eta;        // index beyond the surface over index on the side of wo; 1 for a thin sheet
+  float thin_ior;   // index of a thin sheet, 0 if not one
 };
 
 // What a non-specular evaluation reads at a hit point, in 160 bits: ten 16-bit unorms.
@@ -56,9 +58,15 @@ PPM_FN Bsdf unpack_bsdf(uvec4 words, uint extra) {
   return bsdf;
 }
 
-PPM_FN bool has_glossy(Bsdf bsdf) { return bsdf.glossy.f90 > 0.0f || max_component(bsdf.glossy.f0) > 0.0f; }
-PPM_FN bool has_mirror(Bsdf bsdf) { return bsdf.glossy.alpha == 0.0f && has_glossy(bsdf); }
-PPM_FN bool has_rough_gloss(Bsdf bsdf) { return bsdf.glossy.alpha > 0.0f && has_glossy(bsdf); }
+PPM_FN bool has_glossy(Bsdf bsdf) {
+  return bsdf.glossy.f90 > 0.0f || max_component(bsdf.glossy.f0) > 0.0f;
+}
+PPM_FN bool has_mirror(Bsdf bsdf) {
+  return bsdf.glossy.alpha == 0.0f && has_glossy(bsdf);
+}
+PPM_FN bool has_rough_gloss(Bsdf bsdf) {
+  return bsdf.glossy.alpha > 0.0f && has_glossy(bsdf);
+}
 
 // Whether the surface has a non-specular component.
 PPM_FN bool is_non_specular(Bsdf bsdf) {
@@ -73,8 +81,8 @@ PPM_FN vec3 bsdf_eval(Bsdf bsdf, vec3 wo, vec3 wi) {
   return f;
 }
 
-// The specular lobes seen along wo: what reflection and transmission carry (Fresnel terms and tint included),
-// and the cosine of the transmitted direction (0 where there is none).
+// The specular lobes seen along wo: what reflection and transmission carry (Fresnel terms and tint
+// included), and the cosine of the transmitted direction (0 where there is none).
 struct SpecularLobes {
   vec3 reflected, transmitted;
   float cos_transmitted;
@@ -104,7 +112,9 @@ PPM_FN SpecularLobes specular_lobes(Bsdf bsdf, float cos_o) {
   return lobes;
 }
 
-PPM_FN vec3 specular_reflection(vec3 wo) { return vec3(-wo.x, -wo.y, wo.z); }
+PPM_FN vec3 specular_reflection(vec3 wo) {
+  return vec3(-wo.x, -wo.y, wo.z);
+}
 
 PPM_FN vec3 specular_transmission(Bsdf bsdf, vec3 wo, float cos_transmitted) {
   return vec3(-wo.x / bsdf.eta, -wo.y / bsdf.eta, -cos_transmitted);
@@ -135,8 +145,8 @@ PPM_FN LobeChoice lobe_choice(Bsdf bsdf, SpecularLobes specular, float cos_o) {
   return choice;
 }
 
-// Density with which bsdf_sample, given wo, draws the non-specular direction wi (choice of lobe included).
-// The reverse density is bsdf_pdf_solid_angle(bsdf, wi, wo).
+// Density with which bsdf_sample, given wo, draws the non-specular direction wi (choice of lobe
+// included). The reverse density is bsdf_pdf_solid_angle(bsdf, wi, wo).
 PPM_FN float bsdf_pdf_solid_angle(Bsdf bsdf, vec3 wo, vec3 wi) {
   if (wo.z <= 0.0f || wi.z <= 0.0f) return 0.0f;
   LobeChoice choice = lobe_choice(bsdf, specular_lobes(bsdf, wo.z), wo.z);
@@ -145,13 +155,15 @@ PPM_FN float bsdf_pdf_solid_angle(Bsdf bsdf, vec3 wo, vec3 wi) {
   return pdf;
 }
 
-#define PPM_TRANSPORT_RADIANCE 0u  // wo points to the eye: what is sampled is where light comes from
-#define PPM_TRANSPORT_FLUX 1u      // wo points to the light: photons
+#define PPM_TRANSPORT_RADIANCE \
+  0u                           // wo points to the eye: what is sampled is where light comes from
+#define PPM_TRANSPORT_FLUX 1u  // wo points to the light: photons
 
 struct BsdfSample {
-  vec3 wi;                        // zero length: absorbed
-  vec3 weight;                    // f * |cos_i| / pdf; radiance includes the squared ratio of indices
-  float forward_pdf_solid_angle;  // of wi given wo, lobe choice included; specular: the choice's probability
+  vec3 wi;      // zero length: absorbed
+  vec3 weight;  // f * |cos_i| / pdf; radiance includes the squared ratio of indices
+  float forward_pdf_solid_angle;  // of wi given wo, lobe choice included; specular: the choice's
+                                  // probability
   float reverse_pdf_solid_angle;  // of wo given wi
   uint specular;                  // 1: a delta lobe
   uint transmission;              // 1: wi is on the other side
@@ -207,17 +219,17 @@ PPM_FN BsdfSample bsdf_sample(Bsdf bsdf, vec3 wo, vec3 u, uint transport) {
   return result;
 }
 
-// Shading normals break the symmetry that photons rely on. Veach's correction for a photon that arrives from wi
-// and leaves along wo: flux times |wi.ns| |wo.ng| / (|wi.ng| |wo.ns|) [Veach 1997, section 5.3].
-// Its factors have no bound; above this they are clamped and counted.
+// Shading normals break the symmetry that photons rely on. Veach's correction for a photon that
+// arrives from wi and leaves along wo: flux times |wi.ns| |wo.ng| / (|wi.ng| |wo.ns|) [Veach 1997,
+// section 5.3]. Its factors have no bound; above this they are clamped and counted.
 #define PPM_MAX_NORMAL_FACTOR 10.0f
 
 PPM_FN float shading_normal_factor(float wi_ns, float wi_ng, float wo_ns, float wo_ng) {
   return abs(wi_ns * wo_ng) / max(abs(wi_ng * wo_ns), 1e-12f);
 }
 
-// The same at a hit point: photon density is per area of the photon's own surface, f_r is about the hit point's
-// shading normal, so each photon counts |w.ns| / |w.ng| times.
+// The same at a hit point: photon density is per area of the photon's own surface, f_r is about the
+// hit point's shading normal, so each photon counts |w.ns| / |w.ng| times.
 PPM_FN float merge_normal_factor(float w_ns, float w_ng) {
   return abs(w_ns) / max(abs(w_ng), 1e-12f);
 }

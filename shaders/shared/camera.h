@@ -27,13 +27,15 @@ PPM_FN float pixel_solid_angle(SceneConstants scene, vec3 direction) {
 }
 
 struct CameraImportance {
-  vec2 film;              // where the direction meets the film, in pixels
-  float importance;       // We of a film that averages over one pixel: 1 / (pixel area * cos^4); 0 if off the film
-  float pdf_solid_angle;  // with which one eye path through that pixel takes the direction: 1 / solid angle
+  vec2 film;         // where the direction meets the film, in pixels
+  float importance;  // We of a film that averages over one pixel: 1 / (pixel area * cos^4); 0 if
+                     // off the film
+  float pdf_solid_angle;  // with which one eye path through that pixel takes the direction: 1 /
+                          // solid angle
 };
 
-// For paths that reach the camera from the scene; `direction` leaves the camera. (A lens connection multiplies
-// by the cosine at the camera: importance * cosine = pdf_solid_angle.)
+// For paths that reach the camera from the scene; `direction` leaves the camera. (A lens connection
+// multiplies by the cosine at the camera: importance * cosine = pdf_solid_angle.)
 PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) {
   CameraImportance result;
   result.film = vec2(0.0f);
@@ -44,7 +46,8 @@ PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) 
   float x = dot(direction, scene.camera_right) / (cosine * scene.camera_tan_half_x);
   float y = dot(direction, scene.camera_up) / (cosine * scene.camera_tan_half_y);
   if (abs(x) > 1.0f || abs(y) > 1.0f) return result;
-  result.film = vec2((x + 1.0f) * 0.5f * float(scene.width), (1.0f - y) * 0.5f * float(scene.height));
+  result.film =
+      vec2((x + 1.0f) * 0.5f * float(scene.width), (1.0f - y) * 0.5f * float(scene.height));
   result.pdf_solid_angle = 1.0f / pixel_solid_angle(scene, direction);
   result.importance = result.pdf_solid_angle / cosine;
   return result;
@@ -61,9 +64,9 @@ PPM_FN float radical_inverse(uint index) {
   return unit_from_word(bits);
 }
 
-// The film position of one of a pixel's `samples` eye paths, drawn from the filter, stratified by a jittered
-// Hammersley set: powers of two of samples fill every elementary interval; other numbers are shifted at random
-// on the torus, without which their strata would not cover the pixel evenly.
+// The film position of one of a pixel's `samples` eye paths, drawn from the filter, stratified by a
+// jittered Hammersley set: powers of two of samples fill every elementary interval; other numbers
+// are shifted at random on the torus, without which their strata would not cover the pixel evenly.
 // u: jitter (xy) and the pixel's shift (z).
 PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uint samples, vec3 u) {
   float strata = float(samples);
@@ -80,8 +83,8 @@ PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uin
               float(y) + 0.5f + sample_filter(filter_kind, b));
 }
 
-// Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), so that neighbours in
-// number are neighbours in the picture. Pixel number -> column and row.
+// Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), so that
+// neighbours in number are neighbours in the picture. Pixel number -> column and row.
 PPM_FN uvec2 pixel_position(uint number, uint width, uint height) {
   uint band = number / (8u * width);
   uint rows = min(8u, height - 8u * band);

@@ -6,8 +6,9 @@
 
 PPM_NAMESPACE_BEGIN
 
-// Exact, unpolarised, for light that meets an interface at this cosine (>= 0). eta is the index of refraction on
-// the far side over the one on the near side. cos_transmitted is 0 at total internal reflection, where F = 1.
+// Exact, unpolarised, for light that meets an interface at this cosine (>= 0). eta is the index of
+// refraction on the far side over the one on the near side. cos_transmitted is 0 at total internal
+// reflection, where F = 1.
 PPM_FN float fresnel_dielectric(float cosine, float eta, PPM_OUT(float) cos_transmitted) {
   float sin2_transmitted = (1.0f - cosine * cosine) / (eta * eta);
   if (sin2_transmitted >= 1.0f) {

@@ -9,14 +9,26 @@ PPM_NAMESPACE_BEGIN
 #define PPM_PI 3.14159265358979324f
 #define PPM_INVERSE_PI 0.318309886183790672f
 
-PPM_FN float square(float x) { return x * x; }
-PPM_FN float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
-PPM_FN float mean_component(vec3 v) { return (v.x + v.y + v.z) * 0.333333333333f; }
-PPM_FN float sign_not_zero(float x) { return x >= 0.0f ? 1.0f : -1.0f; }
+PPM_FN float square(float x) {
+  return x * x;
+}
+PPM_FN float max_component(vec3 v) {
+  return max(v.x, max(v.y, v.z));
+}
+PPM_FN float mean_component(vec3 v) {
+  return (v.x + v.y + v.z) * 0.333333333333f;
+}
+PPM_FN float sign_not_zero(float x) {
+  return x >= 0.0f ? 1.0f : -1.0f;
+}
 
 // Bit test, since the driver may assume that NaN and infinity do not occur.
-PPM_FN bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
-PPM_FN bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+PPM_FN bool is_finite(float x) {
+  return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+PPM_FN bool is_finite3(vec3 v) {
+  return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
 
 // Octahedral map of the unit sphere to 2 x 16 bits; error below 4e-5 radians.
 // Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors (JCGT 2014).
@@ -88,11 +100,14 @@ PPM_FN vec3 to_local(vec3 world, vec3 n) {
   return vec3(dot(world, tangent), dot(world, bitangent), dot(world, n));
 }
 
-// Where a ray that leaves a surface starts: off the surface by more than the rounding error of the position.
-// All geometry lies within [-1,1]^3 of the working frame, where barycentric interpolation errs by less than
-// 8 * 2^-24 a coordinate; 2^-20 is twice that. `side` is the geometric normal on the side the ray leaves to.
-// A ray also skips the triangle it starts on, so that the offset only has to clear its neighbours.
-PPM_FN vec3 offset_origin(vec3 position, vec3 side) { return position + side * 9.5367431640625e-7f; }
+// Where a ray that leaves a surface starts: off the surface by more than the rounding error of the
+// position. All geometry lies within [-1,1]^3 of the working frame, where barycentric interpolation
+// errs by less than 8 * 2^-24 a coordinate; 2^-20 is twice that. `side` is the geometric normal on
+// the side the ray leaves to. A ray also skips the triangle it starts on, so that the offset only
+// has to clear its neighbours.
+PPM_FN vec3 offset_origin(vec3 position, vec3 side) {
+  return position + side * 9.5367431640625e-7f;
+}
 
 // Radius squared of the circle that a pixel's solid angle cuts from a surface:
 // pi r^2 cos = solid_angle * distance^2, the cosine held above 0.1.

@@ -1,8 +1,8 @@
 // The photon hash grid: which cell a position lies in, and where the cell's photons are listed.
 //
-// Photons are sorted by table index (a counting sort). Rows of cells along x are contiguous in the table, dense or
-// hashed, so that a search reads one range of photons a row. In a hashed table two rows of one search may
-// overlap: a photon counts only in the row that its own position names.
+// Photons are sorted by table index (a counting sort). Rows of cells along x are contiguous in the
+// table, dense or hashed, so that a search reads one range of photons a row. In a hashed table two
+// rows of one search may overlap: a photon counts only in the row that its own position names.
 #ifndef PPM_SHARED_GRID_H
 #define PPM_SHARED_GRID_H
 

@@ -1,7 +1,9 @@
-// Makes one text compile as C++ (with GLM) and as GLSL: spellings that differ between the two, nothing else.
+// Makes one text compile as C++ (with GLM) and as GLSL: spellings that differ between the two,
+// nothing else.
 //
 // Shared code keeps to the common subset: no bool in structs, no swizzles, no implicit conversions,
-// float literals with an f, functions marked PPM_FN, results through PPM_OUT / PPM_INOUT parameters.
+// float literals with an f, functions marked PPM_FN, results through PPM_OUT / PPM_INOUT
+// parameters.
 #ifndef PPM_SHARED_LANG_H
 #define PPM_SHARED_LANG_H
 
@@ -21,8 +23,8 @@
 #define PPM_IN(T) const T&
 #define PPM_OUT(T) T&
 #define PPM_INOUT(T) T&
-// Forbids contraction and reassociation of what is assigned to such a variable. The host is compiled
-// with -ffp-contract=off, so that nothing need be said there.
+// Forbids contraction and reassociation of what is assigned to such a variable. The host is
+// compiled with -ffp-contract=off, so that nothing need be said there.
 #define PPM_PRECISE
 
 namespace ppm::shared {

@@ -1,16 +1,18 @@
-// Every record that host and kernels, or two kernels, pass to each other. Scalar block layout; sizes in bytes
-// are asserted on the host.
+// Every record that host and kernels, or two kernels, pass to each other. Scalar block layout;
+// sizes in bytes are asserted on the host.
 #ifndef PPM_SHARED_LAYOUT_H
 #define PPM_SHARED_LAYOUT_H
 
 #include "shared/lang.h"
 
-// Invocations of a workgroup, all kernels. 8 to 256 cost the same on lavapipe; GPUs want 32 or more.
+// Invocations of a workgroup, all kernels. 8 to 256 cost the same on lavapipe; GPUs want 32 or
+// more.
 #define PPM_WORKGROUP_SIZE 64
 
 PPM_NAMESPACE_BEGIN
 
-// ---- Bounding volume hierarchy ------------------------------------------------------------------------
+// ---- Bounding volume hierarchy
+// ------------------------------------------------------------------------
 
 // Entries of the traversal stack; the builder keeps within it.
 #define PPM_BVH_STACK 64
@@ -18,17 +20,19 @@ PPM_NAMESPACE_BEGIN
 #define PPM_BVH_EMPTY 0xffffffffu  // a child that is not there; its box is inverted
 #define PPM_BVH_LEAF 0x80000000u   // set in references to leaves, but PPM_BVH_EMPTY
 
-// Four children. Word i of box_x holds child i's lower plane in the low half, its upper plane in the high half,
-// both on the scene-wide grid of 65536 planes. A reference is an inner node's index, or
-// PPM_BVH_LEAF | (count - 1) << 29 | first slot, count in [1, PPM_BVH_MAX_LEAF], first < 2^29.
+// Four children. Word i of box_x holds child i's lower plane in the low half, its upper plane in
+// the high half, both on the scene-wide grid of 65536 planes. A reference is an inner node's index,
+// or PPM_BVH_LEAF | (count - 1) << 29 | first slot, count in [1, PPM_BVH_MAX_LEAF], first < 2^29.
 struct BvhNode {
   uvec4 box_x, box_y, box_z;
   uvec4 children;
 };  // 64
 
-// ---- Scene ----------------------------------------------------------------------------------------------
+// ---- Scene
+// ----------------------------------------------------------------------------------------------
 
-// Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, spare), (corner2, spare).
+// Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, spare),
+// (corner2, spare).
 struct TrianglePositions {
   vec3 corner0;
   uint material;
@@ -56,23 +60,23 @@ struct TriangleShading {
 #define PPM_MATERIAL_TEXELS 5
 struct MaterialRecord {
   vec3 base_color;
-  uint texture;            // 1 + index of the base colour texture, 0 for none
+  uint texture;  // 1 + index of the base colour texture, 0 for none
   float metallic;
   float roughness;
   float transmission;
   float ior;
-  vec3 specular_f0;        // of the dielectric part at normal incidence
-  float specular_f90;      // idem at grazing incidence
-  vec3 emission;           // radiance
+  vec3 specular_f0;    // of the dielectric part at normal incidence
+  float specular_f90;  // idem at grazing incidence
+  vec3 emission;       // radiance
   uint flags;
-  vec3 absorption;         // 1 / working length, of the medium inside when SOLID
+  vec3 absorption;  // 1 / working length, of the medium inside when SOLID
   uint spare;
 };  // 80
 
 // Wrap modes and filter as in scene.hpp: bits 0-1 wrap_s, 2-3 wrap_t, 4 nearest.
 struct TextureRecord {
   uint width, height;
-  uint first;              // index of the first colour (half a texel each)
+  uint first;  // index of the first colour (half a texel each)
   uint sampling;
 };  // 16
 
@@ -83,87 +87,92 @@ struct TextureRecord {
 
 #define PPM_LIGHT_TEXELS 4
 struct LightRecord {
-  vec3 position;           // point, spot
+  vec3 position;  // point, spot
   uint kind;
-  vec3 emission;           // radiance, intensity or irradiance, working frame
-  float probability;       // of being chosen, all lights sum to 1
-  vec3 direction;          // spot, directional: the way the light travels
-  uint triangle;           // slot in leaf order
+  vec3 emission;      // radiance, intensity or irradiance, working frame
+  float probability;  // of being chosen, all lights sum to 1
+  vec3 direction;     // spot, directional: the way the light travels
+  uint triangle;      // slot in leaf order
   float cos_inner, cos_outer;
-  uint alias_threshold;    // of this record's bin: keep it if a 32-bit word is below
-  uint alias;              // else take this one
-};  // 64
+  uint alias_threshold;  // of this record's bin: keep it if a 32-bit word is below
+  uint alias;            // else take this one
+};                       // 64
 
 struct SceneConstants {
-  vec3 grid_origin;        // of the BVH's boxes
+  vec3 grid_origin;  // of the BVH's boxes
   uint light_count;
   vec3 grid_step;
-  float total_power;       // W / 3 channels summed / working area unit: sum of all lights' mean power
-  vec3 bounding_centre;    // sphere around all triangles, for directional lights
+  float total_power;     // W / 3 channels summed / working area unit: sum of all lights' mean power
+  vec3 bounding_centre;  // sphere around all triangles, for directional lights
   float bounding_radius;
   vec3 camera_position;
-  float camera_tan_half_y; // tan(yfov / 2)
+  float camera_tan_half_y;  // tan(yfov / 2)
   vec3 camera_right;
-  float camera_tan_half_x; // idem horizontally
+  float camera_tan_half_x;  // idem horizontally
   vec3 camera_up;
   uint width;
   vec3 camera_forward;
   uint height;
   uint seed;
   uint max_depth;          // scattering events between light and eye at most; 0: no limit
-  uint photon_bounce_cap;  // safety: scattering events after which a photon's path is cut and counted
+  uint photon_bounce_cap;  // safety: scattering events after which a photon's path is cut and
+                           // counted
   uint eye_bounce_cap;     // idem for eye paths
-};  // 128
+};                         // 128
 
-// ---- Counters ---------------------------------------------------------------------------------------------
+// ---- Counters
+// ---------------------------------------------------------------------------------------------
 
-#define PPM_COUNTER_PATHS_OUT 0        // paths that go on, or eye paths
-#define PPM_COUNTER_PHOTONS 1          // photons stored (may pass the capacity: then the pass is redone in parts)
-#define PPM_COUNTER_HITS 2             // hit points found (idem)
-#define PPM_COUNTER_CONTINUE 3         // searches to be continued
-#define PPM_COUNTER_PATHS_CUT 4        // paths ended by a safety cap
-#define PPM_COUNTER_NON_FINITE 5       // photons or hits rejected for a NaN or infinity
-#define PPM_COUNTER_CLAMPED 6          // shading-normal factors above PPM_MAX_NORMAL_FACTOR
-#define PPM_COUNTER_OVERFLOW 7         // fixed-point terms or sums out of range
-#define PPM_COUNTER_MAX_PIXEL_HITS 8   // most hit points of one pixel
-#define PPM_COUNTER_UNDECIDED 9        // hit points for which the pilot has no radius yet
+#define PPM_COUNTER_PATHS_OUT 0  // paths that go on, or eye paths
+#define PPM_COUNTER_PHOTONS \
+  1  // photons stored (may pass the capacity: then the pass is redone in parts)
+#define PPM_COUNTER_HITS 2            // hit points found (idem)
+#define PPM_COUNTER_CONTINUE 3        // searches to be continued
+#define PPM_COUNTER_PATHS_CUT 4       // paths ended by a safety cap
+#define PPM_COUNTER_NON_FINITE 5      // photons or hits rejected for a NaN or infinity
+#define PPM_COUNTER_CLAMPED 6         // shading-normal factors above PPM_MAX_NORMAL_FACTOR
+#define PPM_COUNTER_OVERFLOW 7        // fixed-point terms or sums out of range
+#define PPM_COUNTER_MAX_PIXEL_HITS 8  // most hit points of one pixel
+#define PPM_COUNTER_UNDECIDED 9       // hit points for which the pilot has no radius yet
 #define PPM_COUNTER_COUNT 16
 
-// ---- Photon pass ------------------------------------------------------------------------------------------
+// ---- Photon pass
+// ------------------------------------------------------------------------------------------
 
 // A photon's path between two bounces. Flux is in units in which all lights together emit 1 a path.
 struct PhotonPath {
   vec3 origin;
-  uint path;               // index within the pass
-  vec3 direction;          // unit, the way it travels
-  uint state;              // bits 0-15: scattering events so far; 16-31: 1 + material of the medium, 0 outside
+  uint path;       // index within the pass
+  vec3 direction;  // unit, the way it travels
+  uint state;  // bits 0-15: scattering events so far; 16-31: 1 + material of the medium, 0 outside
   vec3 flux;
-  uint skip;               // triangle slot it starts on, PPM_NO_TRIANGLE for none
-};  // 48
+  uint skip;  // triangle slot it starts on, PPM_NO_TRIANGLE for none
+};            // 48
 
 #define PPM_NO_TRIANGLE 0xffffffffu
 
 struct PhotonPush {
   uint first, count;
-  uint pass;               // number of the pass, RNG counter
-  uint emit_first;         // generation: path index of item 0
-  uint generate;           // 1: items are new paths; 0: items are PATHS_IN
+  uint pass;        // number of the pass, RNG counter
+  uint emit_first;  // generation: path index of item 0
+  uint generate;    // 1: items are new paths; 0: items are PATHS_IN
   uint photon_capacity;
   uint path_capacity;
-  uint stream;             // PPM_STREAM_*
-  uint bounces;            // that this dispatch follows a path at most
+  uint stream;   // PPM_STREAM_*
+  uint bounces;  // that this dispatch follows a path at most
 };
 
-// ---- Photon grid ------------------------------------------------------------------------------------------
+// ---- Photon grid
+// ------------------------------------------------------------------------------------------
 
 // Cells of one edge length over a box. dense: cell index = x + size.x * (y + size.y * z);
 // otherwise rows (y, z) are hashed into table_mask + 1 cells.
 struct GridConstants {
   vec3 origin;
   float inverse_cell;
-  uvec3 size;              // cells along each axis; coordinates are clamped to it
-  uint table_mask;         // hashed: table size - 1, a power of two less one; dense: 0xffffffff
-};  // 32
+  uvec3 size;       // cells along each axis; coordinates are clamped to it
+  uint table_mask;  // hashed: table size - 1, a power of two less one; dense: 0xffffffff
+};                  // 32
 
 struct GridPush {
   uint first, count;
@@ -175,35 +184,36 @@ struct GridPush {
 #define PPM_SCAN_SLICE 16384  // chunks that one dispatch of the middle step takes
 struct ScanPush {
   uint first, count;
-  uint total;              // entries to scan; middle step: chunks
-  uint slice;              // middle step: first chunk of this dispatch
+  uint total;  // entries to scan; middle step: chunks
+  uint slice;  // middle step: first chunk of this dispatch
 };
 
-// ---- Eye pass ---------------------------------------------------------------------------------------------
+// ---- Eye pass
+// ---------------------------------------------------------------------------------------------
 
 struct EyePath {
   vec3 origin;
-  uint pixel;              // within the tile
-  vec3 direction;          // unit, the way it travels
-  uint state;              // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
-  vec3 weight;             // product of specular factors, times filter weight / samples a pixel
+  uint pixel;      // within the tile
+  vec3 direction;  // unit, the way it travels
+  uint state;      // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
+  vec3 weight;     // product of specular factors, times filter weight / samples a pixel
   uint skip;
-  uint sample_index;       // of the pixel
-  uint code;               // which branch was taken at each split, first split in the highest bit
-  uint splits;             // bits of code in use
-  float distance;          // length of the path so far, working units
-};  // 64
+  uint sample_index;  // of the pixel
+  uint code;          // which branch was taken at each split, first split in the highest bit
+  uint splits;        // bits of code in use
+  float distance;     // length of the path so far, working units
+};                    // 64
 
 struct EyePush {
   uint first, count;
-  uint pass;               // RNG counter, for methods that draw eye paths anew each pass
-  uint generate;           // 1: items are (pixel, sample) pairs; 0: items are EYE_IN
-  uint tile_first;         // first pixel of the tile, in tile order
-  uint samples;            // eye paths a pixel
-  uint filter_kind;        // PPM_FILTER_*
+  uint pass;         // RNG counter, for methods that draw eye paths anew each pass
+  uint generate;     // 1: items are (pixel, sample) pairs; 0: items are EYE_IN
+  uint tile_first;   // first pixel of the tile, in tile order
+  uint samples;      // eye paths a pixel
+  uint filter_kind;  // PPM_FILTER_*
   uint hit_capacity;
   uint path_capacity;
-  float split_weight;      // both branches are followed while a path weighs more than this
+  float split_weight;  // both branches are followed while a path weighs more than this
 };
 
 #define PPM_FILTER_BOX 0u
@@ -213,52 +223,55 @@ struct EyePush {
 // A hit point. Four planes of 16 bytes.
 struct HitPoint {
   vec3 position;
-  uint geometric_normal;   // octahedral 2 x 16; both normals on the side of the eye path
+  uint geometric_normal;  // octahedral 2 x 16; both normals on the side of the eye path
   uint shading_normal;
-  uint outgoing;           // direction to where the eye path came from, octahedral 2 x 16
-  uint statistics;         // index of the statistics this hit point feeds
-  uint flags;              // PPM_HIT_*, bits 8-15: scattering events of the eye path before it
-  vec3 weight;             // of its radiance in the pixel; emission: the radiance itself
+  uint outgoing;    // direction to where the eye path came from, octahedral 2 x 16
+  uint statistics;  // index of the statistics this hit point feeds
+  uint flags;       // PPM_HIT_*, bits 8-15: scattering events of the eye path before it
+  vec3 weight;      // of its radiance in the pixel; emission: the radiance itself
   uint bsdf_extra;
-  uvec4 bsdf;              // with bsdf_extra: the non-specular lobes, see pack_bsdf in bsdf.h
-};  // 64
+  uvec4 bsdf;  // with bsdf_extra: the non-specular lobes, see pack_bsdf in bsdf.h
+};             // 64
 
 // Where a staged hit point belongs: the canonical order is by group, then by (order, code).
 struct StagedKey {
-  uint group;              // pixel of the tile * samples + sample
-  uint order;              // scattering events before it, times 2, plus 1 for light seen
-  uint code;               // EyePath::code
-  float footprint;         // radius of the pixel's footprint here, working units
-};  // 16
+  uint group;       // pixel of the tile * samples + sample
+  uint order;       // scattering events before it, times 2, plus 1 for light seen
+  uint code;        // EyePath::code
+  float footprint;  // radius of the pixel's footprint here, working units
+};                  // 16
 
 #define PPM_HIT_EMISSION 1u  // not a hit point but light seen: weight is what it adds to the pixel
 
 struct EyeOrderPush {
   uint first, count;
-  uint samples;            // eye paths a pixel
+  uint samples;  // eye paths a pixel
 };
 
-// ---- Statistics, gather, update ---------------------------------------------------------------------------
+// ---- Statistics, gather, update
+// ---------------------------------------------------------------------------
 
-// Order-free sums over the photons of one pass within a hit point's disc. Integers, so that sums over chunks of
-// photons, tiles or machines are exact: flux in 32.32 fixed point a channel, low word first.
+// Order-free sums over the photons of one pass within a hit point's disc. Integers, so that sums
+// over chunks of photons, tiles or machines are exact: flux in 32.32 fixed point a channel, low
+// word first.
 struct GatherSum {
-  uint count;              // M
-  uint flux[6];            // sum of f_r * flux: r low, r high, g low, ...
+  uint count;    // M
+  uint flux[6];  // sum of f_r * flux: r low, r high, g low, ...
   uint spare;
-  uint second_moment[2];   // room for an order-free second moment of luminance, 16.48 fixed point; zero today
-};  // 40
+  uint second_moment[2];  // room for an order-free second moment of luminance, 16.48 fixed point;
+                          // zero today
+};                        // 40
 
 // Where a search of many photons goes on.
 struct GatherCursor {
   uint hit;
-  uint row;                // of its box of cells
-  uint offset;             // photons already seen in that row
-};  // 12
+  uint row;     // of its box of cells
+  uint offset;  // photons already seen in that row
+};              // 12
 
 struct GatherPush {
   uint first, count;
-  uint from_cursors;       // 0: items are hit points; 1: items are CONTINUE_IN
+  uint from_cursors;  // 0: items are hit points; 1: items are CONTINUE_IN
   uint cursor_capacity;
   GridConstants grid;
 };
@@ -270,9 +283,9 @@ struct UpdatePush {
 
 struct ResolvePush {
   uint first, count;
-  uint samples;            // eye paths a pixel
-  uint skip;               // hit points of each pixel that earlier dispatches have added
-  float scale;             // total power / photons emitted: lambda to radiance, Eq. 13
+  uint samples;  // eye paths a pixel
+  uint skip;     // hit points of each pixel that earlier dispatches have added
+  float scale;   // total power / photons emitted: lambda to radiance, Eq. 13
 };
 
 // Hit points of one pixel that one dispatch of the resolve kernel adds at most.
@@ -280,22 +293,23 @@ struct ResolvePush {
 // Rows of cells and photons that one dispatch of a search visits at most for one hit point.
 #define PPM_GATHER_SLICE 8192
 
-// ---- Pilot: one radius per hit point ----------------------------------------------------------------------
+// ---- Pilot: one radius per hit point
+// ----------------------------------------------------------------------
 
 struct PilotPush {
   uint first, count;
-  uint round_index;        // 0: the largest radius
-  uint last_round;         // 1: whoever has no radius yet gets one
-  float radius;            // searched in this round
-  float footprints_min;    // lower clamp of the result, in footprints
-  uint wanted;             // photons wanted in a disc
+  uint round_index;      // 0: the largest radius
+  uint last_round;       // 1: whoever has no radius yet gets one
+  float radius;          // searched in this round
+  float footprints_min;  // lower clamp of the result, in footprints
+  uint wanted;           // photons wanted in a disc
   GridConstants grid;
 };
 
 struct RadiusPush {
   uint first, count;
-  float fixed_radius;      // if positive, the radius of all
-  float footprints;        // else this many footprints
+  float fixed_radius;  // if positive, the radius of all
+  float footprints;    // else this many footprints
 };
 
 // Bins of the histogram of radii, half an octave of R^2 each, from 2^-64 on.

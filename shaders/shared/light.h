@@ -1,8 +1,9 @@
 // Light sources: how they emit photons and how a surface point sees them.
 //
-// Each offers a position density (per area of the light, or of the disc a directional light shines through; 1 for a
-// point) and a direction density (per solid angle; 1 for a delta), separately, so that a method may use either.
-// The probability of choosing the light is not in any of them. Lengths are in the working frame.
+// Each offers a position density (per area of the light, or of the disc a directional light shines
+// through; 1 for a point) and a direction density (per solid angle; 1 for a delta), separately, so
+// that a method may use either. The probability of choosing the light is not in any of them.
+// Lengths are in the working frame.
 #ifndef PPM_SHARED_LIGHT_H
 #define PPM_SHARED_LIGHT_H
 
@@ -30,8 +31,8 @@ PPM_FN float spot_falloff(LightRecord record, float cosine) {
   return attenuation * attenuation;
 }
 
-// Power in watts times frame.scale^2, by channel. Triangle: pi A L a side; point: 4 pi I; spot: I integrated over
-// its cone; directional: E times the disc it shines through.
+// Power in watts times frame.scale^2, by channel. Triangle: pi A L a side; point: 4 pi I; spot: I
+// integrated over its cone; directional: E times the disc it shines through.
 PPM_FN vec3 light_power(Light light) {
   LightRecord record = light.record;
   if (record.kind == PPM_LIGHT_TRIANGLE) {
@@ -49,14 +50,15 @@ PPM_FN vec3 light_power(Light light) {
 
 struct LightEmission {
   vec3 position;
-  vec3 normal;                    // of the surface photons start on; zero for lights without one
-  vec3 direction;                 // the way the photon travels
-  vec3 flux;                      // emitted radiance (or intensity ...) * cosine / the two densities
+  vec3 normal;     // of the surface photons start on; zero for lights without one
+  vec3 direction;  // the way the photon travels
+  vec3 flux;       // emitted radiance (or intensity ...) * cosine / the two densities
   float pdf_position_area;
   float pdf_direction_solid_angle;
 };
 
-// A photon's start. u: position (xy), direction (zw); side: uniform, chooses the side of a two-sided light.
+// A photon's start. u: position (xy), direction (zw); side: uniform, chooses the side of a
+// two-sided light.
 PPM_FN LightEmission light_emit(Light light, vec4 u, float side) {
   LightRecord record = light.record;
   LightEmission result;
@@ -69,7 +71,8 @@ PPM_FN LightEmission light_emit(Light light, vec4 u, float side) {
     float sides = 1.0f + light.two_sided;
     if (light.two_sided > 0.0f && side < 0.5f) normal = -normal;
     vec3 local = sample_cosine_hemisphere(vec2(u.z, u.w));
-    result.position = light.corner0 * (1.0f - b.x - b.y) + light.corner1 * b.x + light.corner2 * b.y;
+    result.position =
+        light.corner0 * (1.0f - b.x - b.y) + light.corner1 * b.x + light.corner2 * b.y;
     result.normal = normal;
     result.direction = to_world(local, normal);
     result.pdf_position_area = 2.0f / doubled_area;
@@ -101,19 +104,20 @@ PPM_FN LightEmission light_emit(Light light, vec4 u, float side) {
     vec3 local = sample_cone(vec2(u.z, u.w), record.cos_outer);
     result.direction = to_world(local, record.direction);
     result.pdf_direction_solid_angle = cone_pdf_solid_angle(record.cos_outer);
-    result.flux = record.emission * (spot_falloff(record, local.z) / result.pdf_direction_solid_angle);
+    result.flux =
+        record.emission * (spot_falloff(record, local.z) / result.pdf_direction_solid_angle);
   }
   return result;
 }
 
 struct LightConnection {
-  vec3 direction;                 // from the receiver to the light, unit
-  float distance;                 // infinity is 1e30
-  vec3 radiance;                  // so that radiance * f * cosine / pdf_solid_angle estimates reflected light
-  float pdf_solid_angle;          // at the receiver; 1 for delta lights
-  float pdf_position_area;        // of the light point
+  vec3 direction;  // from the receiver to the light, unit
+  float distance;  // infinity is 1e30
+  vec3 radiance;   // so that radiance * f * cosine / pdf_solid_angle estimates reflected light
+  float pdf_solid_angle;                 // at the receiver; 1 for delta lights
+  float pdf_position_area;               // of the light point
   float emit_pdf_direction_solid_angle;  // with which light_emit would send a photon this way
-  float light_cosine;             // at the light; 1 where it has no surface
+  float light_cosine;                    // at the light; 1 where it has no surface
 };
 
 // What `point` sees of the light, at a random position on it. radiance is zero on the dark side.
@@ -148,7 +152,8 @@ PPM_FN LightConnection light_connect(Light light, vec3 point, vec2 u) {
     if (light.two_sided > 0.0f) cosine = abs(cosine);
     result.light_cosine = max(cosine, 0.0f);
     result.pdf_position_area = 2.0f / doubled_area;
-    result.pdf_solid_angle = result.pdf_position_area * distance2 / max(result.light_cosine, 1e-12f);
+    result.pdf_solid_angle =
+        result.pdf_position_area * distance2 / max(result.light_cosine, 1e-12f);
     result.emit_pdf_direction_solid_angle =
         cosine_hemisphere_pdf_solid_angle(result.light_cosine) / (1.0f + light.two_sided);
     result.radiance = cosine > 0.0f ? record.emission : vec3(0.0f);
@@ -159,7 +164,8 @@ PPM_FN LightConnection light_connect(Light light, vec3 point, vec2 u) {
     float cosine = -dot(result.direction, record.direction);
     bool inside = cosine > record.cos_outer;
     result.emit_pdf_direction_solid_angle = inside ? cone_pdf_solid_angle(record.cos_outer) : 0.0f;
-    result.radiance = inside ? record.emission * (spot_falloff(record, cosine) / distance2) : vec3(0.0f);
+    result.radiance =
+        inside ? record.emission * (spot_falloff(record, cosine) / distance2) : vec3(0.0f);
   }
   return result;
 }

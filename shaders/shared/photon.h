@@ -1,5 +1,5 @@
-// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes; a search that
-// rejects a photon for its distance reads only the first.
+// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes; a
+// search that rejects a photon for its distance reads only the first.
 #ifndef PPM_SHARED_PHOTON_H
 #define PPM_SHARED_PHOTON_H
 
@@ -9,10 +9,10 @@ PPM_NAMESPACE_BEGIN
 
 struct Photon {
   vec3 position;
-  vec3 incident;   // unit, pointing back to where the photon came from
-  vec3 flux;       // incident flux, cosine not included (it is in the density of photons)
-  vec3 normal;     // geometric, on the side the photon arrived on
-  uint events;     // scattering events before, saturates at 255
+  vec3 incident;  // unit, pointing back to where the photon came from
+  vec3 flux;      // incident flux, cosine not included (it is in the density of photons)
+  vec3 normal;    // geometric, on the side the photon arrived on
+  uint events;    // scattering events before, saturates at 255
 };
 
 PPM_FN uvec4 pack_photon_position(Photon photon) {
@@ -20,8 +20,8 @@ PPM_FN uvec4 pack_photon_position(Photon photon) {
                floatBitsToUint(photon.position.z), pack_direction(photon.incident));
 }
 
-// The event count sits in the low byte of the third channel's mantissa, which is rounded to 16 bits for it:
-// an error below 2^-17 of that channel, against 4 bytes more a photon.
+// The event count sits in the low byte of the third channel's mantissa, which is rounded to 16 bits
+// for it: an error below 2^-17 of that channel, against 4 bytes more a photon.
 PPM_FN uvec4 pack_photon_flux(Photon photon) {
   uint blue = (floatBitsToUint(photon.flux.z) + 0x80u) & 0xffffff00u;
   return uvec4(floatBitsToUint(photon.flux.x), floatBitsToUint(photon.flux.y),
@@ -30,8 +30,8 @@ PPM_FN uvec4 pack_photon_flux(Photon photon) {
 
 PPM_FN Photon unpack_photon(uvec4 position, uvec4 flux) {
   Photon photon;
-  photon.position = vec3(uintBitsToFloat(position.x), uintBitsToFloat(position.y),
-                         uintBitsToFloat(position.z));
+  photon.position =
+      vec3(uintBitsToFloat(position.x), uintBitsToFloat(position.y), uintBitsToFloat(position.z));
   photon.incident = unpack_direction(position.w);
   photon.flux =
       vec3(uintBitsToFloat(flux.x), uintBitsToFloat(flux.y), uintBitsToFloat(flux.z & 0xffffff00u));
@@ -40,9 +40,10 @@ PPM_FN Photon unpack_photon(uvec4 position, uvec4 flux) {
   return photon;
 }
 
-// Whether a photon found within a hit point's disc counts there: it must have arrived on the side the eye sees
-// (every lobe stored today reflects), on a surface that faces about the same way. The normals' threshold keeps
-// light from leaking through thin walls and around edges; it vanishes with the radius on smooth surfaces.
+// Whether a photon found within a hit point's disc counts there: it must have arrived on the side
+// the eye sees (every lobe stored today reflects), on a surface that faces about the same way. The
+// normals' threshold keeps light from leaking through thin walls and around edges; it vanishes with
+// the radius on smooth surfaces.
 PPM_FN bool accepts_photon(vec3 hit_normal, vec3 incident, vec3 photon_normal) {
   return dot(photon_normal, hit_normal) > 0.1f && dot(incident, hit_normal) > 0.0f;
 }

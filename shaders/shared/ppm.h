@@ -1,9 +1,9 @@
 // The progressive radiance estimate [HOJ08 section 4], one hit point, one pass.
 //
-// Two identities make it exact and cheap. Eqs. 9 and 12 scale R^2 and tau by the same ratio, so that
-// lambda = tau / (pi R^2) only ever adds up: lambda += tau_M / (pi R^2), R being the radius that the pass searched.
-// And from N = 0 Eq. 7 gives N = alpha * C, where C, the count of all photons accepted, is an integer.
-// tau and N follow from (lambda, R^2, C) whenever they are wanted.
+// Two identities make it exact and cheap. Eqs. 9 and 12 scale R^2 and tau by the same ratio, so
+// that lambda = tau / (pi R^2) only ever adds up: lambda += tau_M / (pi R^2), R being the radius
+// that the pass searched. And from N = 0 Eq. 7 gives N = alpha * C, where C, the count of all
+// photons accepted, is an integer. tau and N follow from (lambda, R^2, C) whenever they are wanted.
 #ifndef PPM_SHARED_PPM_H
 #define PPM_SHARED_PPM_H
 
@@ -22,9 +22,9 @@ PPM_FN float shrink_ratio(float alpha, uint count, uint new_photons) {
 
 // State of a hit point between passes.
 struct Estimate {
-  vec3 lambda;     // sum over passes of sum(f_r * photon flux) / (pi R^2)
-  float radius2;   // R(x)^2, working units
-  uint count;      // C
+  vec3 lambda;    // sum over passes of sum(f_r * photon flux) / (pi R^2)
+  float radius2;  // R(x)^2, working units
+  uint count;     // C
 };
 
 // One pass: new_photons is M, new_flux is tau_M of Eq. 11. Without photons nothing changes.
@@ -40,17 +40,22 @@ PPM_FN Estimate update_estimate(Estimate estimate, float alpha, uint new_photons
 }
 
 // N of Eq. 7 and tau of Eq. 12, on demand.
-PPM_FN float accumulated_photons(Estimate estimate, float alpha) { return alpha * float(estimate.count); }
+PPM_FN float accumulated_photons(Estimate estimate, float alpha) {
+  return alpha * float(estimate.count);
+}
 PPM_FN vec3 accumulated_flux(Estimate estimate) {
   return estimate.lambda * (PPM_PI * estimate.radius2);
 }
 
-// Eq. 13: fluxes are in units in which all lights together emit 1 a path, so total_power / photons_emitted
+// Eq. 13: fluxes are in units in which all lights together emit 1 a path, so total_power /
+// photons_emitted
 // (`scale`) turns lambda into radiance.
-PPM_FN vec3 radiance(Estimate estimate, float scale) { return estimate.lambda * scale; }
+PPM_FN vec3 radiance(Estimate estimate, float scale) {
+  return estimate.lambda * scale;
+}
 
-// Bin of the histogram of radii: half octaves of R^2 from 2^-64 on, straight from the exponent and the
-// highest bit of the mantissa.
+// Bin of the histogram of radii: half octaves of R^2 from 2^-64 on, straight from the exponent and
+// the highest bit of the mantissa.
 PPM_FN uint radius_bin(float radius2) {
   uint half_octave = floatBitsToUint(radius2) >> 22u;  // 2 * (exponent + 127) + that bit
   return clamp(half_octave, 126u, 126u + uint(PPM_RADIUS_BINS) - 1u) - 126u;

@@ -1,7 +1,8 @@
-// Random numbers: Philox4x32-10, counter based, and the one function that every random decision asks.
+// Random numbers: Philox4x32-10, counter based, and the one function that every random decision
+// asks.
 //
-// Salmon, Moraes, Dror, Shaw: Parallel Random Numbers: As Easy as 1, 2, 3 (SC 2011). Known answers of the
-// authors' library are a test.
+// Salmon, Moraes, Dror, Shaw: Parallel Random Numbers: As Easy as 1, 2, 3 (SC 2011). Known answers
+// of the authors' library are a test.
 #ifndef PPM_SHARED_RANDOM_H
 #define PPM_SHARED_RANDOM_H
 
@@ -9,7 +10,8 @@
 
 PPM_NAMESPACE_BEGIN
 
-// Streams: who draws. A decision is named by (seed, stream, pass, path, dimension) and by nothing else.
+// Streams: who draws. A decision is named by (seed, stream, pass, path, dimension) and by nothing
+// else.
 #define PPM_STREAM_EYE 1u
 #define PPM_STREAM_PHOTON 2u
 #define PPM_STREAM_PILOT 3u
@@ -39,7 +41,9 @@ PPM_FN uvec4 random_words(RandomStream stream, uint block) {
 }
 
 // Uniform in [0, 1): 24 bits, so that 1 is never reached.
-PPM_FN float unit_from_word(uint word) { return float(word >> 8u) * 5.9604644775390625e-8f; }
+PPM_FN float unit_from_word(uint word) {
+  return float(word >> 8u) * 5.9604644775390625e-8f;
+}
 
 PPM_FN vec4 random_units(RandomStream stream, uint block) {
   uvec4 words = random_words(stream, block);

@@ -14,7 +14,9 @@ PPM_FN vec3 sample_sphere(vec2 u) {
   vec2 circle = unit_circle(u.y);
   return vec3(r * circle.x, r * circle.y, z);
 }
-PPM_FN float sphere_pdf_solid_angle() { return 0.25f * PPM_INVERSE_PI; }
+PPM_FN float sphere_pdf_solid_angle() {
+  return 0.25f * PPM_INVERSE_PI;
+}
 
 // Cosine weighted on the hemisphere around +z.
 PPM_FN vec3 sample_cosine_hemisphere(vec2 u) {
@@ -38,8 +40,12 @@ PPM_FN float cone_pdf_solid_angle(float cos_angle) {
 }
 
 // Uniform on the unit disc.
-PPM_FN vec2 sample_disc(vec2 u) { return unit_circle(u.y) * sqrt(u.x); }
-PPM_FN float disc_pdf_area() { return PPM_INVERSE_PI; }
+PPM_FN vec2 sample_disc(vec2 u) {
+  return unit_circle(u.y) * sqrt(u.x);
+}
+PPM_FN float disc_pdf_area() {
+  return PPM_INVERSE_PI;
+}
 
 // Uniform on a triangle: barycentric weights of the corners 1 and 2.
 PPM_FN vec2 sample_triangle(vec2 u) {
@@ -78,9 +84,9 @@ PPM_FN float inverse_erf(float x) {
   return p * x;
 }
 
-// One coordinate of the pixel filter: an offset from the pixel's centre, in pixels. The density of the offset
-// is the filter itself, so that all eye paths weigh the same.
-// Box: width 1. Tent: radius 1. Gaussian: standard deviation 0.5, cut at three of them.
+// One coordinate of the pixel filter: an offset from the pixel's centre, in pixels. The density of
+// the offset is the filter itself, so that all eye paths weigh the same. Box: width 1. Tent:
+// radius 1. Gaussian: standard deviation 0.5, cut at three of them.
 PPM_FN float sample_filter(uint kind, float u) {
   if (kind == PPM_FILTER_TENT) {
     return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(max(0.0f, 2.0f - 2.0f * u));

@@ -1,8 +1,8 @@
 // The diffuse lobe: Lambert, under a coat where the material has a dielectric specular part.
 //
-// Light that the coat reflects does not reach the base: f = albedo / pi * (1 - F(o)) (1 - F(i)) / (1 - F_avg).
-// This form is reciprocal, and with the smooth coat's F it loses no energy for albedo 1
-// (Kelemen and Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, 2001).
+// Light that the coat reflects does not reach the base: f = albedo / pi * (1 - F(o)) (1 - F(i)) /
+// (1 - F_avg). This form is reciprocal, and with the smooth coat's F it loses no energy for albedo
+// 1 (Kelemen and Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, 2001).
 // Without a coat (f0 = f90 = 0) it is Lambert's albedo / pi.
 #ifndef PPM_SHARED_BSDF_DIFFUSE_H
 #define PPM_SHARED_BSDF_DIFFUSE_H

@@ -1,8 +1,10 @@
-// The glossy lobe: GGX microfacets with Smith's height-correlated masking and Schlick's Fresnel term.
+// The glossy lobe: GGX microfacets with Smith's height-correlated masking and Schlick's Fresnel
+// term.
 //
-// Walter et al. 2007; Heitz: Understanding the Masking-Shadowing Function (JCGT 2014); visible normals are
-// sampled by Dupuy and Benyoub: Sampling Visible GGX Normals with Spherical Caps (2023).
-// Directions are in the shading frame (normal = +z), both pointing away from the surface, z > 0.
+// Walter et al. 2007; Heitz: Understanding the Masking-Shadowing Function (JCGT 2014); visible
+// normals are sampled by Dupuy and Benyoub: Sampling Visible GGX Normals with Spherical Caps
+// (2023). Directions are in the shading frame (normal = +z), both pointing away from the surface, z
+// > 0.
 #ifndef PPM_SHARED_BSDF_GGX_H
 #define PPM_SHARED_BSDF_GGX_H
 
@@ -37,8 +39,7 @@ PPM_FN vec3 ggx_eval(GgxLobe lobe, vec3 wo, vec3 wi) {
   float masking = 1.0f / (1.0f + ggx_lambda(lobe.alpha, wo) + ggx_lambda(lobe.alpha, wi));
   float weight = schlick_weight(dot(wo, half_vector));
   vec3 fresnel = lobe.f0 + (vec3(lobe.f90) - lobe.f0) * weight;
-  return fresnel *
-         (ggx_distribution(lobe.alpha, half_vector) * masking / (4.0f * wo.z * wi.z));
+  return fresnel * (ggx_distribution(lobe.alpha, half_vector) * masking / (4.0f * wo.z * wi.z));
 }
 
 // Density of ggx_sample, solid angle of wi.
@@ -47,7 +48,8 @@ PPM_FN float ggx_pdf_solid_angle(float alpha, vec3 wo, vec3 wi) {
   return ggx_distribution(alpha, half_vector) / (4.0f * wo.z * (1.0f + ggx_lambda(alpha, wo)));
 }
 
-// A direction reflected about a visible normal. May point below the surface (z <= 0): no light then.
+// A direction reflected about a visible normal. May point below the surface (z <= 0): no light
+// then.
 PPM_FN vec3 ggx_sample(float alpha, vec3 wo, vec2 u) {
   vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
   float z = (1.0f - u.x) * (1.0f + stretched.z) - stretched.z;
