@@ -1,27 +1,29 @@
-// The initial radius of each hit point from a discarded pilot pass [HOJ08 section 4: "use the photon map to estimate the
-// radius around each hit point"].
+// Pilot pass, step 1 of 2: how many photons lie in reach of each hit point that has no radius yet.
 //
-// Rounds of halving radii: whoever finds fewer than four times the wanted photons takes R^2 = r^2 * wanted / found
-// of that round, the others go on to the next. One invocation a hit point. Until it has its radius, STATISTICS.w holds
-// the footprint squared, negated. How far a search goes depends on the set of photons alone, not on their order.
+// One invocation a hit point; adds to its GATHER_SUMS the photons that count within the round's radius (no more than
+// are needed to know that there are enough) and, as `spare`, those in the cells around. Both sums depend on the set of
+// photons alone, neither on their order nor on their division into chunks, so that radii do not either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/invocation.glsl"
 
-#include "lib/counters.glsl"
 #include "lib/search.glsl"
 #include "shared/ppm.h"
 
 layout(push_constant, scalar) uniform PushBlock { PilotPush push; };
-layout(binding = PPM_BIND_STATISTICS, scalar) buffer Statistics { vec4 statistics[]; };
+PPM_TEXELS(PPM_BIND_STATISTICS, statistics);
+layout(binding = PPM_BIND_GATHER_SUMS, scalar) buffer GatherSums { GatherSum gather_sums[]; };
 
-// Photons that count within the round's radius, at most `enough`; `enough` too where looking would take too long.
-uint count_photons(uint hit, uint enough) {
+void main() {
+  uint hit = item_of_invocation(push.first);
+  if (hit >= push.first + push.count) return;
+  if (uintBitsToFloat(PPM_FETCH(statistics, hit).w) >= 0.0) return;  // decided, or light seen
+
   uvec4 plane0 = PPM_FETCH(hits_0, hit);
   vec3 position = uintBitsToFloat(plane0.xyz);
   vec3 normal = unpack_direction(plane0.w);
-  float radius2 = push.radius * push.radius;
+  float radius2 = square(push.radius);
   CellBox box = cells_within(push.grid, position, radius2);
   uint rows = row_count(box);
   uint candidates = 0u;
@@ -29,7 +31,10 @@ uint count_photons(uint hit, uint enough) {
     CellRow row = cell_row(push.grid, box, i);
     candidates += row.end - row.begin;
   }
-  if (candidates > PPM_GATHER_SLICE) return enough;
+  gather_sums[hit].spare += candidates;
+  if (candidates > PPM_GATHER_SLICE) return;  // too many to look at: enough, see pilot_decide
+
+  uint enough = PPM_PILOT_ENOUGH * push.wanted;
   uint found = 0u;
   for (uint i = 0u; i < rows && found < enough; ++i) {
     CellRow row = cell_row(push.grid, box, i);
@@ -42,24 +47,5 @@ uint count_photons(uint hit, uint enough) {
       }
     }
   }
-  return found;
-}
-
-void main() {
-  uint hit = item_of_invocation(push.first);
-  if (hit >= push.first + push.count) return;
-  vec4 statistic = statistics[hit];
-  if (statistic.w >= 0.0) return;  // decided, or light seen
-  float least = square(push.footprints_min) * -statistic.w;
-  float most = square(push.round_index == 0u ? push.radius : 2.0 * push.radius);
-  uint enough = 4u * push.wanted;
-  uint found = count_photons(hit, enough);
-  if (found >= enough && push.last_round == 0u && push.radius * push.radius > least) {
-    count_event(PPM_COUNTER_UNDECIDED);
-    return;
-  }
-  // Fewer than wanted in the first round: the largest radius there is.
-  float radius2 = push.radius * push.radius * float(push.wanted) / float(max(found, 1u));
-  statistic.w = clamp(radius2, min(least, most), most);
-  statistics[hit] = statistic;
+  gather_sums[hit].count += found;
 }

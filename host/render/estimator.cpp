@@ -21,6 +21,7 @@ Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::u
       resolve_(device, shaders::resolve),
       radius_(device, shaders::radius),
       pilot_(device, shaders::pilot),
+      pilot_decide_(device, shaders::pilot_decide),
       cursors_{{device, "search cursors A", tile_hits * sizeof(shared::GatherCursor),
                 gpu::Usage::storage},
                {device, "search cursors B", tile_hits * sizeof(shared::GatherCursor),
@@ -99,20 +100,28 @@ void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footpri
   });
 }
 
-std::uint32_t Estimator::pilot_round(const HitTile& tile, const PhotonGrid& grid,
-                                     std::uint32_t round, bool last, float radius) {
-  gpu::BindingTable table = table_for(tile);
-  grid.bind(table);
+shared::PilotPush Estimator::pilot_push(const PilotRound& round) const {
   shared::PilotPush push{};
-  push.round_index = round;
-  push.last_round = last ? 1 : 0;
-  push.radius = radius;
+  push.round_index = round.index;
+  push.last_round = round.last ? 1 : 0;
+  push.radius = round.radius;
   push.footprints_min = kLeastFootprints;
   push.wanted = kPilotPhotons;
+  return push;
+}
+
+void Estimator::pilot_count(const HitTile& tile, const PhotonGrid& grid, const PilotRound& round) {
+  gpu::BindingTable table = table_for(tile);
+  grid.bind(table);
+  shared::PilotPush push = pilot_push(round);
   push.grid = grid.constants();
+  device_.run([&](gpu::Recorder& recorder) { recorder.dispatch(pilot_, table, push, tile.hits); });
+}
+
+std::uint32_t Estimator::pilot_decide(const HitTile& tile, const PilotRound& round) {
   device_.run([&](gpu::Recorder& recorder) {
     counters_.clear(recorder);
-    recorder.dispatch(pilot_, table, push, tile.hits);
+    recorder.dispatch(pilot_decide_, table_for(tile), pilot_push(round), tile.hits);
     counters_.read(recorder);
   });
   return counters_[PPM_COUNTER_UNDECIDED];

@@ -44,20 +44,29 @@ class Estimator {
   /// `footprints` times their pixel's footprint if positive, else the mark that the pilot replaces.
   void set_radii(const HitTile& tile, float fixed_radius, float footprints);
 
-  /// One round of the pilot (see pilot.comp) with the photons of `grid` in reach of `radius`.
-  /// Returns how many hit points of the tile are still without a radius.
-  std::uint32_t pilot_round(const HitTile& tile, const PhotonGrid& grid, std::uint32_t round,
-                            bool last, float radius);
+  /// A round of the pilot (pilot.comp, pilot_decide.comp): hit points without a radius look for
+  /// photons within `radius` (working units), half of the round before.
+  struct PilotRound {
+    std::uint32_t index;
+    bool last;
+    float radius;
+  };
+  /// Counts the photons of `grid` for the tile's hit points; may be called for several chunks of
+  /// photons.
+  void pilot_count(const HitTile& tile, const PhotonGrid& grid, const PilotRound& round);
+  /// Ends the round; returns how many hit points of the tile are still without a radius.
+  std::uint32_t pilot_decide(const HitTile& tile, const PilotRound& round);
 
   /// Reads the histogram of radii without changing anything else.
   void measure_radii(std::span<const HitTile> tiles);
 
  private:
   gpu::BindingTable table_for(const HitTile& tile) const;
+  shared::PilotPush pilot_push(const PilotRound& round) const;
 
   gpu::Device& device_;
   gpu::BindingTable scene_;
-  gpu::Kernel gather_, update_, resolve_, radius_, pilot_;
+  gpu::Kernel gather_, update_, resolve_, radius_, pilot_, pilot_decide_;
   gpu::Buffer cursors_[2], histogram_buffer_;
   std::uint64_t cursor_capacity_;
   Counters counters_;

@@ -53,6 +53,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
+  tracer_.bind_photons(photons_);
   if (std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel > 0xffffffffu) {
     throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths",
                   "make the picture smaller or lower --spp");
@@ -99,7 +100,8 @@ bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
 }
 
 bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
-  const Stopwatch stopwatch(statistics_.seconds["pilot"]);
+  const auto seconds_before = statistics_.seconds;
+  const double start = clock_seconds();
   const bool automatic = settings_.radius_mode == RadiusMode::automatic;
   const float fixed = settings_.radius_mode == RadiusMode::fixed
                           ? static_cast<float>(settings_.radius * scene_.frame.scale)
@@ -109,62 +111,68 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
   if (automatic && !run_pilot(interrupted)) return false;
   estimator_.measure_radii(tiles_);
   record_initial_radii();
+  // The pilot's own tracing and sorting counts as pilot alone.
+  statistics_.seconds = seconds_before;
+  statistics_.seconds["pilot"] = clock_seconds() - start;
   return true;
 }
 
 bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
-  float radius = kLargestRadius * buffers_.constants().bounding_radius;
   // The pilot's photons are a set of their own: radii must not depend on the photons that are
-  // estimated with them. All rounds see the same photons, as many as one chunk holds.
-  if (buffers_.light_count() > 0) {
-    for (;;) {
-      const auto result = tracer_.trace(PPM_STREAM_PILOT, 0, 0, chunk_paths_, interrupted);
-      if (result == PhotonTracer::Result::interrupted) return false;
-      if (result == PhotonTracer::Result::done) break;
-      chunk_paths_ = (chunk_paths_ + 1) / 2;
+  // estimated with them. All rounds see the same ones, as many as a pass has.
+  float radius = kLargestRadius * buffers_.constants().bounding_radius;
+  std::uint32_t chunks = 0;
+  for (std::uint32_t index = 0; index < kPilotRounds; ++index, radius *= 0.5f) {
+    const Estimator::PilotRound round{index, index + 1 == kPilotRounds, radius};
+    const auto count = [&] {
+      if (interrupted()) return false;
+      for (const HitTile& tile : tiles_) estimator_.pilot_count(tile, grid_, round);
+      return true;
+    };
+    if (chunks == 1) {  // the photons are still there
+      grid_.build(device_, photons_, tracer_.photon_count(), radius);
+      if (!count()) return false;
+    } else if (buffers_.light_count() > 0) {
+      const std::optional<std::uint32_t> done =
+          for_each_chunk(PPM_STREAM_PILOT, 0, radius, interrupted, count);
+      if (!done) return false;
+      chunks = *done;
     }
-  }
-  gpu::BindingTable photons;
-  tracer_.bind_photons(photons);
-  for (std::uint32_t round = 0; round < kPilotRounds; ++round, radius *= 0.5f) {
-    if (interrupted()) return false;
-    grid_.build(device_, photons, tracer_.photon_count(), radius);
-    const bool last = round + 1 == kPilotRounds;
     std::uint64_t undecided = 0;
-    for (const HitTile& tile : tiles_)
-      undecided += estimator_.pilot_round(tile, grid_, round, last, radius);
+    for (const HitTile& tile : tiles_) undecided += estimator_.pilot_decide(tile, round);
     if (undecided == 0) break;
   }
   return true;
 }
 
 template <class Use>
-bool PpmIntegrator::for_each_chunk(float cell, const std::function<bool()>& interrupted,
-                                   const Use& use) {
-  gpu::BindingTable photons;
-  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
-  tracer_.bind_photons(photons);
+std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass,
+                                                           float cell,
+                                                           const std::function<bool()>& interrupted,
+                                                           const Use& use) {
   const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
+  std::uint32_t chunks = 0;
   for (std::uint32_t first = 0; first < paths;) {
     const std::uint32_t chunk = std::min(chunk_paths_, paths - first);
     PhotonTracer::Result result;
     {
       const Stopwatch stopwatch(statistics_.seconds["photons"]);
-      result = tracer_.trace(PPM_STREAM_PHOTON, pass, first, chunk, interrupted);
+      result = tracer_.trace(stream, pass, first, chunk, interrupted);
     }
-    if (result == PhotonTracer::Result::interrupted) return false;
+    if (result == PhotonTracer::Result::interrupted) return std::nullopt;
     if (result == PhotonTracer::Result::overflow) {
       chunk_paths_ = (chunk + 1) / 2;
       continue;
     }
     {
       const Stopwatch stopwatch(statistics_.seconds["grid"]);
-      grid_.build(device_, photons, tracer_.photon_count(), cell);
+      grid_.build(device_, photons_, tracer_.photon_count(), cell);
     }
-    if (!use()) return false;
+    if (!use()) return std::nullopt;
     first += chunk;
+    ++chunks;
   }
-  return true;
+  return chunks;
 }
 
 bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
@@ -184,7 +192,8 @@ bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
       tally.add(tracer_.counters());
       return true;
     };
-    if (!for_each_chunk(cell, interrupted, gather)) {
+    const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+    if (!for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, gather)) {
       estimator_.clear_sums(tiles_);
       return false;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "estimator.hpp"
@@ -28,10 +29,13 @@ class PpmIntegrator final : public Integrator {
   bool trace_eye_paths(const std::function<bool()>& interrupted);
   bool find_initial_radii(const std::function<bool()>& interrupted);
   bool run_pilot(const std::function<bool()>& interrupted);
-  /// Traces all paths of the next pass in chunks that fit, and calls `use` with the photons of each
-  /// in the grid, in cells of `cell` working units. False when interrupted, by itself or by `use`.
+  /// Traces all paths of a pass in chunks that fit, and calls `use` with the photons of each in the
+  /// grid, in cells of `cell` working units. Returns how many chunks it took; nothing when
+  /// interrupted, by itself or by `use`.
   template <class Use>
-  bool for_each_chunk(float cell, const std::function<bool()>& interrupted, const Use& use);
+  std::optional<std::uint32_t> for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell,
+                                              const std::function<bool()>& interrupted,
+                                              const Use& use);
   void record_initial_radii();
 
   /// What a pass or tile adds to the statistics once it is complete.
@@ -50,6 +54,7 @@ class PpmIntegrator final : public Integrator {
   gpu::BindingTable table_;
   double pipelines_begin_;  // reading of the clock, between the members that are timed
   PhotonTracer tracer_;
+  gpu::BindingTable photons_;  // the tracer's photons, which the grid sorts
   PhotonGrid grid_;
   Estimator estimator_;
   std::vector<HitTile> tiles_;

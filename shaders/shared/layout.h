@@ -255,9 +255,9 @@ struct EyeOrderPush {
 // over chunks of photons, tiles or machines are exact: flux in 32.32 fixed point a channel, low
 // word first.
 struct GatherSum {
-  uint count;    // M
-  uint flux[6];  // sum of f_r * flux: r low, r high, g low, ...
-  uint spare;
+  uint count;             // M
+  uint flux[6];           // sum of f_r * flux: r low, r high, g low, ...
+  uint spare;             // pilot: photons in the cells around
   uint second_moment[2];  // room for an order-free second moment of luminance, 16.48 fixed point;
                           // zero today
 };                        // 40
@@ -296,6 +296,8 @@ struct ResolvePush {
 // ---- Pilot: one radius per hit point
 // ----------------------------------------------------------------------
 
+// A disc with this many times the wanted photons is too large.
+#define PPM_PILOT_ENOUGH 4u
 struct PilotPush {
   uint first, count;
   uint round_index;      // 0: the largest radius
