@@ -1,5 +1,6 @@
 #include "gltf_document.hpp"
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -157,6 +158,7 @@ std::string base64(const Bytes& bytes) {
 }
 
 void write_file(const std::filesystem::path& file, const Bytes& bytes) {
+  std::filesystem::remove(file);  // some file systems flush to disk what is overwritten in place
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
@@ -203,6 +205,20 @@ std::array<glm::dvec3, 3> world_corners(const scene::Scene& scene, std::size_t t
     corners[i] = scene.frame.to_world(glm::dvec3(scene.triangles.at(triangle).corners[i].position));
   }
   return corners;
+}
+
+void expect_near(glm::dvec3 actual, glm::dvec3 expected, double tolerance, const char* what) {
+  EXPECT_LE(glm::length(actual - expected), tolerance)
+      << what << ": (" << actual.x << ", " << actual.y << ", " << actual.z << ") instead of ("
+      << expected.x << ", " << expected.y << ", " << expected.z << ")";
+}
+
+void expect_corners(const scene::Scene& scene, std::size_t triangle,
+                    const std::array<glm::dvec3, 3>& expected) {
+  const std::array<glm::dvec3, 3> actual = world_corners(scene, triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    expect_near(actual[i], expected[i], 1e-7 / scene.frame.scale, "corner");
+  }
 }
 
 glm::vec3 geometric_normal(const scene::Triangle& triangle) {

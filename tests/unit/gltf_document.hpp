@@ -100,6 +100,12 @@ std::size_t warnings_with(const Log& log, const std::string& fragment);
 
 /// Corners back in world space, which frames cannot change.
 std::array<glm::dvec3, 3> world_corners(const scene::Scene& scene, std::size_t triangle);
+/// Fails the test unless the two lie within `tolerance` of each other.
+void expect_near(glm::dvec3 actual, glm::dvec3 expected, double tolerance, const char* what);
+/// Fails the test unless the triangle's corners are these in world space, but for one rounding to
+/// float of working coordinates of at most 1: half an ulp is 6e-8.
+void expect_corners(const scene::Scene& scene, std::size_t triangle,
+                    const std::array<glm::dvec3, 3>& expected);
 /// Of the front side, from the corners.
 glm::vec3 geometric_normal(const scene::Triangle& triangle);
 

@@ -1,0 +1,452 @@
+// Broken and hostile files: each is refused with one line that names the place, and no file
+// whatsoever does anything but load or be refused.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "failure.hpp"
+#include "gltf_document.hpp"
+#include "load_gltf.hpp"
+
+namespace ppm::test {
+namespace {
+
+using nlohmann::json;
+
+/// The message with which the file is refused, or nothing where it loads.
+std::string refusal(const std::filesystem::path& file) {
+  Log log(Verbosity::quiet);
+  try {
+    scene::load_gltf(file, log);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+void expect_refused(const std::filesystem::path& file, const std::string& fragment,
+                    const std::string& name) {
+  const std::string message = refusal(file);
+  EXPECT_NE(message.find(fragment), std::string::npos) << name << ": \"" << message << "\"";
+  EXPECT_TRUE(message.starts_with(file.string())) << name << ": \"" << message << "\"";
+  EXPECT_EQ(message.find('\n'), std::string::npos) << name;
+  EXPECT_LT(message.size(), file.string().size() + 500) << name;
+}
+
+/// A little of everything that the loader reads.
+GltfDocument everything() {
+  GltfDocument document;
+  json& root = document.root;
+  json& primitive = document.triangle();
+  primitive["attributes"]["NORMAL"] = document.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  primitive["attributes"]["TEXCOORD_0"] =
+      document.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
+  primitive["attributes"]["COLOR_0"] =
+      document.accessor<std::uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 255}, "VEC3", true);
+  primitive["indices"] = document.accessor<std::uint16_t>({0, 1, 2, 2, 1, 0}, "SCALAR");
+  primitive["material"] = 0;
+  root["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", document.view({1, 0})}, {"componentType", 5123}}},
+      {"values", {{"bufferView", document.view(bytes_of<float>({2, 0, 0}))}}}};
+  root["materials"] = {
+      {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"baseColorTexture", {{"index", 0}}}}},
+       {"extensions",
+        {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}}}}}};
+  document.append("textures", {{"source", 0}, {"sampler", 0}});
+  document.append("samplers", {{"wrapS", 33071}});
+  document.append("images",
+                  {{"mimeType", "image/png"},
+                   {"bufferView", document.view(png_of(2, 1, {1, 2, 3, 4, 5, 6, 7, 8}))}});
+  root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
+  document.append("cameras",
+                  {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  document.append("nodes", {{"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"children", {0}}});
+  document.append(
+      "nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {1, 2, 3}}});
+  root["scenes"] = {{{"nodes", {1, 2}}}};
+  root["scene"] = 0;
+  return document;
+}
+
+TEST(LoadGltfHostile, TheFileThatTheOthersBreakLoads) {
+  const TemporaryFolder folder;
+  everything().write_gltf(folder / "a.gltf");
+  everything().write_glb(folder / "a.glb");
+  EXPECT_EQ(refusal(folder / "a.gltf"), "");
+  EXPECT_EQ(refusal(folder / "a.glb"), "");
+}
+
+struct Broken {
+  const char* name;
+  std::function<void(json&)> fault;
+  const char* fragment;
+};
+
+std::vector<Broken> broken_documents() {
+  const auto set = [](const char* pointer, json value) {
+    return [=](json& root) { root[json::json_pointer(pointer)] = value; };
+  };
+  const auto drop = [](const char* parent, const char* key) {
+    return [=](json& root) { root[json::json_pointer(parent)].erase(key); };
+  };
+  const char* const position = "meshes[0].primitives[0].attributes.POSITION";
+  return {
+      {"no asset", drop("", "asset"), "\"asset\""},
+      {"old version", set("/asset/version", "1.0"), "asset.version"},
+      {"newer minimum", set("/asset/minVersion", "2.1"), "asset.version"},
+      {"unknown required", set("/extensionsRequired", {"KHR_draco_mesh_compression"}),
+       "KHR_draco_mesh_compression"},
+      {"meshopt required", set("/extensionsRequired", {"EXT_meshopt_compression"}),
+       "EXT_meshopt_compression"},
+      {"required not a list", set("/extensionsRequired", 3),
+       "extensionsRequired: is not a JSON array"},
+      {"scene out of range", set("/scene", 1), "scenes[1]"},
+      {"negative scene", set("/scene", -1), "scene: is not a whole number"},
+      {"root out of range", set("/scenes/0/nodes/0", 9), "scenes[0].nodes[0]: refers to nodes[9]"},
+      {"no nodes", drop("", "nodes"), "no triangles"},
+      {"empty scene", set("/scenes/0/nodes", json::array()), "no triangles"},
+      {"own parent", set("/nodes/0/children", {0}), "nodes[0]: is reached twice"},
+      {"cycle", set("/nodes/0/children", {1}), "is reached twice"},
+      {"two parents", set("/nodes/2/children", {0}), "nodes[0]: is reached twice"},
+      {"listed twice", set("/scenes/0/nodes", {1, 1}), "nodes[1]: is reached twice"},
+      {"child out of range", set("/nodes/0/children", {77}), "nodes[0].children[0]"},
+      {"child a fraction", set("/nodes/0/children", {0.5}), "not a whole number"},
+      {"node not an object", set("/nodes/0", 5), "nodes[0]: is not a JSON object"},
+      {"nodes not an array", set("/nodes", json::object()), "nodes: is not a JSON array"},
+      {"short matrix", set("/nodes/0/matrix", {1, 2}), "nodes[0].matrix: has 2 items"},
+      {"projective matrix",
+       set("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}), "affine"},
+      {"no rotation", set("/nodes/0/rotation", {0, 0, 0, 0}), "nodes[0].rotation"},
+      {"rotation a string", set("/nodes/0/rotation", {0, 0, 0, "1"}),
+       "nodes[0].rotation[3]: is not a number"},
+      {"scale null", set("/nodes/0/scale", {1, 1, nullptr}), "nodes[0].scale[2]"},
+      {"overflow", set("/nodes/0/scale", {1e308, 1, 1}), "overflow"},
+      {"overflow of a chain",
+       set("/nodes/1", {{"children", {0}},
+                        {"matrix", {1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e308, 0, 0, 1}}}),
+       "overflow"},
+      {"too large", set("/nodes/0/scale", {1e20, 1, 1}), "extent"},
+      {"no extent", set("/nodes/0/scale", {0, 0, 0}), "extent"},
+      {"only a line", set("/nodes/0/scale", {1, 0, 0}), "area"},
+      {"mesh out of range", set("/nodes/0/mesh", 1), "nodes[0].mesh: refers to meshes[1]"},
+      {"no primitives", drop("/meshes/0", "primitives"), "meshes[0]: has no \"primitives\""},
+      {"empty mesh", set("/meshes/0/primitives", json::array()), "meshes[0].primitives: is empty"},
+      {"no attributes", drop("/meshes/0/primitives/0", "attributes"), "\"attributes\""},
+      {"mode", set("/meshes/0/primitives/0/mode", 7), "meshes[0].primitives[0].mode"},
+      {"no position accessor", set("/meshes/0/primitives/0/attributes/POSITION", 99), position},
+      {"position of two", set("/meshes/0/primitives/0/attributes/POSITION", 2), position},
+      {"normal of two", set("/meshes/0/primitives/0/attributes/NORMAL", 2), "attributes.NORMAL"},
+      {"fewer normals", set("/accessors/1/count", 2), "2 elements beside 3 positions"},
+      {"signed indices", set("/accessors/4/componentType", 5122), "primitives[0].indices"},
+      {"float indices", set("/meshes/0/primitives/0/indices", 0), "primitives[0].indices"},
+      {"four indices", set("/accessors/4/count", 4), "whole triangles"},
+      {"material out of range", set("/meshes/0/primitives/0/material", 1), "materials[1]"},
+      {"huge count", set("/accessors/1/count", 100000000000000), "accessors[1]: needs"},
+      {"count beyond all", set("/accessors/1/count", 1e30), "accessors[1].count"},
+      {"negative count", set("/accessors/1/count", -3), "accessors[1].count"},
+      {"no elements", set("/accessors/1/count", 0), "accessors[1]: is empty"},
+      {"huge count of zeros",
+       set("/accessors/1", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000}}),
+       "without a bufferView"},
+      {"offset beyond", set("/accessors/1/byteOffset", 4), "accessors[1]: needs 40 bytes"},
+      {"offset wraps", set("/accessors/1/byteOffset", 281474976710655), "accessors[1]: needs"},
+      {"matrix accessor", set("/accessors/0/type", "MAT4"), "accessors[0]"},
+      {"no such type", set("/accessors/0/type", "VEC9"), "accessors[0].type"},
+      {"type a number", set("/accessors/0/type", 3), "accessors[0].type: is not a string"},
+      {"doubles", set("/accessors/0/componentType", 5130), "accessors[0].componentType"},
+      {"view out of range", set("/accessors/0/bufferView", 1000), "bufferViews[1000]"},
+      {"stride too small", set("/bufferViews/0/byteStride", 4), "bufferViews[0].byteStride"},
+      {"stride too large", set("/bufferViews/0/byteStride", 1000000), "bufferViews[0].byteStride"},
+      {"stride leads out", set("/bufferViews/0/byteStride", 16), "accessors[0]: needs 44 bytes"},
+      {"view too long", set("/bufferViews/0/byteLength", 1000000), "bufferViews[0]: ends at byte"},
+      {"view begins outside", set("/bufferViews/0/byteOffset", 281474976710656),
+       "bufferViews[0]: ends at byte"},
+      {"buffer out of range", set("/bufferViews/0/buffer", 1), "buffers[1]"},
+      {"buffer claims more", set("/buffers/0/byteLength", 4000000000),
+       "buffers[0]: claims 4000000000 bytes"},
+      {"sparse beyond", set("/accessors/0/sparse/count", 4), "accessors[0].sparse: substitutes"},
+      {"sparse reads outside", set("/accessors/0/sparse/count", 2), "accessors[0].sparse"},
+      {"sparse index type", set("/accessors/0/sparse/indices/componentType", 5126),
+       "sparse.indices"},
+      {"sparse index out of range", set("/accessors/0/sparse/indices/bufferView", 3),
+       "sparse.indices: do not increase"},
+      {"texture out of range", set("/materials/0/pbrMetallicRoughness/baseColorTexture/index", 5),
+       "baseColorTexture.index"},
+      {"image out of range", set("/textures/0/source", 3), "textures[0].source"},
+      {"sampler out of range", set("/textures/0/sampler", 3), "textures[0].sampler"},
+      {"wrap mode", set("/samplers/0/wrapS", 1), "samplers[0].wrapS"},
+      {"filter", set("/samplers/0/magFilter", 1), "samplers[0].magFilter"},
+      {"image of nothing", set("/images/0", json::object()),
+       "images[0]: has neither uri nor bufferView"},
+      {"no image", set("/images/0/bufferView", 0), "images[0]: is no PNG"},
+      {"missing image file", set("/images/0/uri", "none.png"), "none.png"},
+      {"factor a string", set("/materials/0/pbrMetallicRoughness/metallicFactor", "1"),
+       "metallicFactor: is not a number"},
+      {"colour of two", set("/materials/0/emissiveFactor", {1, 1}), "materials[0].emissiveFactor"},
+      {"double-sided a number", set("/materials/0/doubleSided", 1),
+       "doubleSided: is not a boolean"},
+      {"light out of range", set("/nodes/2/extensions/KHR_lights_punctual/light", 1),
+       "KHR_lights_punctual.light"},
+      {"light type", set("/extensions/KHR_lights_punctual/lights/0/type", "area"),
+       "lights[0].type"},
+      {"bright light", set("/extensions/KHR_lights_punctual/lights/0/intensity", 1e300),
+       "intensity overflows"},
+      {"camera out of range", set("/nodes/1/camera", 1), "nodes[1].camera"},
+      {"no camera type", drop("/cameras/0", "type"), "cameras[0]"},
+      {"wide camera", set("/cameras/0/perspective/yfov", 3.2), "cameras[0].perspective.yfov"},
+      {"narrow camera", set("/cameras/0/perspective/yfov", 0), "cameras[0].perspective.yfov"},
+      {"flat camera", set("/cameras/0/perspective/aspectRatio", 0), "perspective.aspectRatio"},
+      {"name a number", set("/materials/0/name", 3), "materials[0].name: is not a string"},
+      {"triangle bomb",
+       [](json& root) {
+         // Zeros need no bytes: 8 million triangles, seven times over.
+         root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 3}};
+         root["accessors"][4] = {{"componentType", 5125}, {"type", "SCALAR"}, {"count", 16777215}};
+         for (int i = 0; i < 7; ++i) {
+           root["nodes"].push_back({{"mesh", 0}});
+           root["scenes"][0]["nodes"].push_back(root["nodes"].size() - 1);
+         }
+       },
+       "triangles"},
+  };
+}
+
+TEST(LoadGltfHostile, BrokenDocumentsAreRefused) {
+  const TemporaryFolder folder;
+  for (const Broken& broken : broken_documents()) {
+    GltfDocument document = everything();
+    broken.fault(document.root);
+    document.write_gltf(folder / "broken.gltf");
+    expect_refused(folder / "broken.gltf", broken.fragment, broken.name);
+  }
+}
+
+TEST(LoadGltfHostile, BrokenNumbersInBuffersAreRefused) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  const TemporaryFolder folder;
+  for (const float bad : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()}) {
+    GltfDocument document;
+    document.mesh({{"POSITION", document.accessor<float>({0, 0, 0, 1, 0, bad, 0, 1, 0}, "VEC3")}});
+    document.write_gltf(folder / "a.gltf");
+    expect_refused(folder / "a.gltf", "attributes.POSITION: vertex 1 (accessors[0]) is not finite",
+                   "position");
+  }
+  GltfDocument document;
+  document.triangle()["indices"] = document.accessor<std::uint8_t>({0, 1, 3}, "SCALAR");
+  document.write_gltf(folder / "a.gltf");
+  expect_refused(folder / "a.gltf", "primitives[0].indices: index 3 exceeds the 3 vertices",
+                 "index");
+}
+
+TEST(LoadGltfHostile, UrisThatLeadElsewhereAreRefused) {
+  const TemporaryFolder folder;
+  write_file(folder / "short.bin", std::string(8, 'x'));
+  std::filesystem::create_directory(folder / "folder.bin");
+  const std::vector<std::pair<const char*, const char*>> uris{
+      {"../secret.bin", "outside"},
+      {"a/../../secret.bin", "outside"},
+      {"%2e%2e/secret.bin", "outside"},
+      {"/etc/passwd", "outside"},
+      {"..\\secret.bin", "outside"},
+      {"file:///etc/passwd", "scheme"},
+      {"http://example.org/a.bin", "scheme"},
+      {"%4", "not a file name"},
+      {"%zz.bin", "not a file name"},
+      {"a%00.bin", "not a file name"},
+      {"", "not a file name"},
+      {"missing.bin", "no such file"},
+      {"folder.bin", "not a regular file"},
+      {"short.bin", "claims 36 bytes but has 8"},
+      {"data:application/octet-stream;base64", "not a base64 data URI"},
+      {"data:text/plain,hello", "not a base64 data URI"},
+      {"data:;base64,AAA*", "malformed base64"},
+      {"data:;base64,AAAAA", "malformed base64"},
+      {"data:;base64,AAAA", "claims 36 bytes but has 3"},
+  };
+  for (const auto& [uri, fragment] : uris) {
+    GltfDocument document;
+    document.triangle();
+    document.root["buffers"][0]["uri"] = uri;
+    document.write_gltf(folder / "a.gltf");
+    expect_refused(folder / "a.gltf", "buffers[0]", uri);
+    expect_refused(folder / "a.gltf", fragment, uri);
+  }
+}
+
+TEST(LoadGltfHostile, BrokenContainersAreRefused) {
+  const Bytes good = everything().glb();
+  const auto patched = [&](std::size_t at, std::uint8_t value) {
+    Bytes bytes = good;
+    bytes[at] = value;
+    return bytes;
+  };
+  const auto text = [](const std::string& content) {
+    return Bytes(content.begin(), content.end());
+  };
+  const Bytes lying_header{'g',  'l',  'T',  'F',  2,    0,    0,   0,   0xff, 0xff,
+                           0xff, 0xff, 0xf0, 0xff, 0xff, 0xff, 'J', 'S', 'O',  'N'};
+  Bytes lying_chunk = lying_header;
+  lying_chunk[8] = 20;
+  lying_chunk[9] = lying_chunk[10] = lying_chunk[11] = 0;
+  const std::vector<std::tuple<const char*, Bytes, const char*>> files{
+      {"empty", {}, "neither"},
+      {"blank", text(" \n\t"), "neither"},
+      {"picture", png_of(1, 1, {1, 2, 3, 4}), "neither"},
+      {"array", text("[]"), "neither"},
+      {"only magic", text("glTF"), "within its header"},
+      {"header of 4 GB", lying_header, "header claims 4294967295 bytes"},
+      {"chunk of 4 GB", lying_chunk, "chunk claims 4294967280 bytes"},
+      {"version 1", patched(4, 1), "version 1"},
+      {"first chunk", patched(16, 'X'), "not JSON"},
+      {"cut", Bytes(good.begin(), good.end() - 20), "cut short"},
+      {"no json", text("{\"asset\":"), "cannot be read"},
+      {"trailing comma", text("{\"asset\": {},}"), "cannot be read"},
+      {"not utf-8", text("{\"asset\": \"\xff\xfe\"}"), "cannot be read"},
+      {"infinite number", text("{\"asset\": {\"version\": 1e999}}"), "cannot be read"},
+      {"asset null", text("{\"asset\": null}"), "asset: is not a JSON object"},
+      {"deep arrays", text("{\"asset\": " + std::string(100000, '[')), "nested deeper"},
+      {"deep closed arrays",
+       text("{\"asset\":" + std::string(100000, '[') + std::string(100000, ']') + "}"),
+       "nested deeper"},
+      {"long token", text("{\"asset\": " + std::string(100000, 'a') + "}"), "cannot be read"},
+      {"long string", text("{\"" + std::string(100000, 'a')), "cannot be read"},
+  };
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes, fragment] : files) {
+    write_file(folder / "a.glb", bytes);
+    expect_refused(folder / "a.glb", fragment, name);
+  }
+  expect_refused(folder / "none.gltf", "no such file", "missing");
+  std::filesystem::create_directory(folder / "folder.gltf");
+  expect_refused(folder / "folder.gltf", "not a regular file", "folder");
+}
+
+GltfDocument with_image(const Bytes& image) {
+  GltfDocument document = everything();
+  document.root["images"][0]["bufferView"] = document.view(image);
+  return document;
+}
+
+TEST(LoadGltfHostile, BrokenImagesAreRefused) {
+  const Bytes good = png_of(2, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  const TemporaryFolder folder;
+  const std::vector<std::tuple<const char*, Bytes, const char*>> images{
+      {"long", png_of(20000, 10, {}), "20000 x 10 texels are too many"},
+      {"huge", png_of(100000, 100000, {}), "too large"},
+      {"without texels", png_of(16384, 16384, {}), "is corrupt"},
+      {"no size", png_of(0, 0, {}), "images[0]"},
+      {"cut", Bytes(good.begin(), good.end() - 30), "is corrupt"},
+      {"empty", {}, "images[0]"},
+      {"jpeg header", {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10}, "images[0]: is no PNG or JPEG"},
+  };
+  for (const auto& [name, image, fragment] : images) {
+    with_image(image).write_gltf(folder / "a.gltf");
+    expect_refused(folder / "a.gltf", fragment, name);
+  }
+}
+
+/// Flips bits, overwrites, cuts, repeats: one to eight times.
+void mutate(Bytes& bytes, std::mt19937& random) {
+  const auto below = [&](std::size_t limit) { return random() % limit; };
+  for (std::size_t i = 0, count = 1 + below(8); i < count && bytes.size() > 1; ++i) {
+    const std::size_t at = below(bytes.size());
+    switch (below(6)) {
+      case 0:
+        bytes[at] ^= static_cast<std::uint8_t>(1u << below(8));
+        break;
+      case 1:
+        bytes[at] = static_cast<std::uint8_t>(random());
+        break;
+      case 2:
+        bytes[at] = static_cast<std::uint8_t>("0919e-[]{},\":"[below(13)]);
+        break;
+      case 3:
+        bytes[at] = 0xff;
+        break;
+      case 4:
+        bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at));
+        break;
+      default:
+        if (below(20) == 0) bytes.resize(at);
+    }
+  }
+}
+
+TEST(LoadGltfHostile, MutatedFilesLoadOrAreRefused) {
+  const TemporaryFolder folder;
+  const Bytes good = everything().glb();
+  std::mt19937 random(2008);
+  int loaded = 0, refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Bytes bytes = good;
+    mutate(bytes, random);
+    write_file(folder / "a.glb", bytes);
+    ASSERT_NO_THROW(++(refusal(folder / "a.glb").empty() ? loaded : refused)) << "mutation " << i;
+  }
+  EXPECT_GT(loaded, 100);  // mutations reach behind the first check, too
+  EXPECT_GT(refused, 100);
+}
+
+/// Replaces a random value of the document by one that does not belong there.
+void bend(json& value, std::mt19937& random) {
+  json* target = &value;
+  while (target->is_structured() && !target->empty() && random() % 5 != 0) {
+    auto item = target->begin();
+    std::advance(item, static_cast<std::ptrdiff_t>(random() % target->size()));
+    target = &*item;
+  }
+  const std::vector<json> misfits{nullptr,
+                                  -1,
+                                  0,
+                                  1,
+                                  2,
+                                  255,
+                                  65536,
+                                  4294967296,
+                                  1e300,
+                                  -0.5,
+                                  "",
+                                  "data:;base64,AAAA",
+                                  true,
+                                  json::array(),
+                                  json::object(),
+                                  {0, 0},
+                                  {1e38, 0, 0},
+                                  {{"count", 3}}};
+  *target = misfits[random() % misfits.size()];
+}
+
+TEST(LoadGltfHostile, BentDocumentsLoadOrAreRefused) {
+  const TemporaryFolder folder;
+  const GltfDocument good = everything();
+  std::mt19937 random(1409060);
+  int loaded = 0, refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    GltfDocument document = good;
+    for (std::size_t bends = 1 + random() % 3; bends > 0; --bends) bend(document.root, random);
+    write_file(folder / "a.glb", document.glb());
+    ASSERT_NO_THROW(++(refusal(folder / "a.glb").empty() ? loaded : refused)) << "bend " << i;
+  }
+  EXPECT_GT(loaded, 30);
+  EXPECT_GT(refused, 100);
+}
+
+TEST(LoadGltfHostile, MutatedImagesLoadOrAreRefused) {
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> rgba(4 * 16 * 16);
+  std::mt19937 random(1216199);
+  for (std::uint8_t& code : rgba) code = static_cast<std::uint8_t>(random());
+  const Bytes good = png_of(16, 16, rgba);
+  for (int i = 0; i < 1000; ++i) {
+    Bytes image = good;
+    mutate(image, random);
+    with_image(image).write_glb(folder / "a.glb");
+    ASSERT_NO_THROW(refusal(folder / "a.glb")) << "mutation " << i;
+  }
+}
+
+}  // namespace
+}  // namespace ppm::test
