@@ -28,13 +28,12 @@ void* limited_realloc(void* memory, std::size_t size) {
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
-#define STBI_MAX_DIMENSIONS 16384
 #include <stb/stb_image.h>
 
 namespace ppm::scene::gltf {
 namespace {
 
-constexpr int kLargestSide = STBI_MAX_DIMENSIONS;
+constexpr int kLargestSide = 16384;
 constexpr int kChannels = 4;
 
 /// IEC 61966-2-1.
@@ -80,7 +79,7 @@ Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
   allocation_limit = 65536;
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
-    image.fail("is not a PNG or JPEG image that can be read", kRemedy);
+    image.fail("is no PNG or JPEG image, or broken or too large", kRemedy);
   }
   const std::uint64_t count =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
