@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "failure.hpp"
+
 namespace ppm::test {
 namespace {
 
@@ -67,6 +69,25 @@ Bytes zlib_stored(const Bytes& data) {
   return out;
 }
 
+Bytes png_of_bytes(std::uint32_t width, std::uint32_t height, std::uint8_t bits,
+                   const std::vector<std::uint8_t>& rgba) {
+  Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  Bytes header;
+  put_big_endian(header, width);
+  put_big_endian(header, height);
+  header.insert(header.end(), {bits, 6, 0, 0, 0});  // RGBA, no interlacing
+  put_png_chunk(out, "IHDR", header);
+  Bytes rows;
+  const std::size_t row_bytes = std::size_t{4} * width * bits / 8;
+  for (std::size_t start = 0; start < rgba.size(); start += row_bytes) {
+    rows.push_back(0);  // no filter
+    for (std::size_t i = start; i < start + row_bytes; ++i) rows.push_back(rgba[i]);
+  }
+  put_png_chunk(out, "IDAT", zlib_stored(rows));
+  put_png_chunk(out, "IEND", {});
+  return out;
+}
+
 }  // namespace
 
 std::size_t GltfDocument::append(const char* array, json item) {
@@ -124,22 +145,60 @@ void GltfDocument::write_glb(const std::filesystem::path& file) const {
   write_file(file, glb());
 }
 
+GltfDocument everything() {
+  GltfDocument document;
+  json& root = document.root;
+  json& primitive = document.triangle();
+  primitive["attributes"]["NORMAL"] = document.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  primitive["attributes"]["TEXCOORD_0"] =
+      document.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
+  primitive["attributes"]["COLOR_0"] =
+      document.accessor<std::uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 255}, "VEC3", true);
+  primitive["indices"] = document.accessor<std::uint16_t>({0, 1, 2, 2, 1, 0}, "SCALAR");
+  primitive["material"] = 0;
+  root["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", document.view({1, 0})}, {"componentType", 5123}}},
+      {"values", {{"bufferView", document.view(bytes_of<float>({2, 0, 0}))}}}};
+  root["materials"] = {
+      {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"baseColorTexture", {{"index", 0}}}}},
+       {"extensions",
+        {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}}}}}};
+  document.append("textures", {{"source", 0}, {"sampler", 0}});
+  document.append("samplers", {{"wrapS", 33071}});
+  document.append(
+      "images", {{"mimeType", "image/png"},
+                 {"bufferView",
+                  document.view(png_of(2, 1, std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}))}});
+  root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
+  document.append("cameras",
+                  {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  document.append("nodes", {{"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"children", {0}}});
+  document.append(
+      "nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {1, 2, 3}}});
+  root["scenes"] = {{{"nodes", {1, 2}}}};
+  root["scene"] = 0;
+  return document;
+}
+
+GltfDocument with_image(const Bytes& image) {
+  GltfDocument document = everything();
+  document.root["images"][0]["bufferView"] = document.view(image);
+  return document;
+}
+
 Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba) {
-  Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  Bytes header;
-  put_big_endian(header, width);
-  put_big_endian(header, height);
-  header.insert(header.end(), {8, 6, 0, 0, 0});  // 8 bits, RGBA, no interlacing
-  put_png_chunk(out, "IHDR", header);
-  Bytes rows;
-  const std::size_t row_bytes = std::size_t{4} * width;
-  for (std::size_t start = 0; start < rgba.size(); start += row_bytes) {
-    rows.push_back(0);  // no filter
-    for (std::size_t i = start; i < start + row_bytes; ++i) rows.push_back(rgba[i]);
+  return png_of_bytes(width, height, 8, rgba);
+}
+
+Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint16_t>& rgba) {
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint16_t code : rgba) {
+    bytes.push_back(static_cast<std::uint8_t>(code >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(code & 0xffu));
   }
-  put_png_chunk(out, "IDAT", zlib_stored(rows));
-  put_png_chunk(out, "IEND", {});
-  return out;
+  return png_of_bytes(width, height, 16, bytes);
 }
 
 std::string base64(const Bytes& bytes) {
@@ -190,6 +249,16 @@ scene::Scene load(const GltfDocument& document, Log& log) {
 scene::Scene load(const GltfDocument& document) {
   Log log(Verbosity::quiet);
   return load(document, log);
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  Log log(Verbosity::quiet);
+  try {
+    scene::load_gltf(file, log);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
 }
 
 std::size_t warnings_with(const Log& log, const std::string& fragment) {

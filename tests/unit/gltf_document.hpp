@@ -71,8 +71,15 @@ struct GltfDocument {
   Bytes glb() const;
 };
 
-/// A PNG file of 8-bit RGBA texels, row-major from the top.
+/// A sound file with a little of everything that the loader reads: one mesh, a texture, a light, a
+/// camera.
+GltfDocument everything();
+/// The same with this file as its image.
+GltfDocument with_image(const Bytes& image);
+
+/// A PNG file of RGBA texels, row-major from the top, 8 or 16 bits a channel.
 Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba);
+Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint16_t>& rgba);
 
 std::string base64(const Bytes& bytes);
 void write_file(const std::filesystem::path& file, const Bytes& bytes);
@@ -95,6 +102,8 @@ class TemporaryFolder {
 /// Writes the document as a .gltf file and loads it, quietly.
 scene::Scene load(const GltfDocument& document, Log& log);
 scene::Scene load(const GltfDocument& document);
+/// The message with which a file is refused, or nothing where it loads. Throws what is no refusal.
+std::string refusal(const std::filesystem::path& file);
 /// How many of the log's warnings contain `fragment`.
 std::size_t warnings_with(const Log& log, const std::string& fragment);
 

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <random>
+#include <limits>
 
-#include "failure.hpp"
 #include "gltf_document.hpp"
 #include "load_gltf.hpp"
 
@@ -14,17 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-/// The message with which the file is refused, or nothing where it loads.
-std::string refusal(const std::filesystem::path& file) {
-  Log log(Verbosity::quiet);
-  try {
-    scene::load_gltf(file, log);
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
-}
-
 void expect_refused(const std::filesystem::path& file, const std::string& fragment,
                     const std::string& name) {
   const std::string message = refusal(file);
@@ -32,43 +20,6 @@ void expect_refused(const std::filesystem::path& file, const std::string& fragme
   EXPECT_TRUE(message.starts_with(file.string())) << name << ": \"" << message << "\"";
   EXPECT_EQ(message.find('\n'), std::string::npos) << name;
   EXPECT_LT(message.size(), file.string().size() + 500) << name;
-}
-
-/// A little of everything that the loader reads.
-GltfDocument everything() {
-  GltfDocument document;
-  json& root = document.root;
-  json& primitive = document.triangle();
-  primitive["attributes"]["NORMAL"] = document.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-  primitive["attributes"]["TEXCOORD_0"] =
-      document.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
-  primitive["attributes"]["COLOR_0"] =
-      document.accessor<std::uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 255}, "VEC3", true);
-  primitive["indices"] = document.accessor<std::uint16_t>({0, 1, 2, 2, 1, 0}, "SCALAR");
-  primitive["material"] = 0;
-  root["accessors"][0]["sparse"] = {
-      {"count", 1},
-      {"indices", {{"bufferView", document.view({1, 0})}, {"componentType", 5123}}},
-      {"values", {{"bufferView", document.view(bytes_of<float>({2, 0, 0}))}}}};
-  root["materials"] = {
-      {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"baseColorTexture", {{"index", 0}}}}},
-       {"extensions",
-        {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}}}}}};
-  document.append("textures", {{"source", 0}, {"sampler", 0}});
-  document.append("samplers", {{"wrapS", 33071}});
-  document.append("images",
-                  {{"mimeType", "image/png"},
-                   {"bufferView", document.view(png_of(2, 1, {1, 2, 3, 4, 5, 6, 7, 8}))}});
-  root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
-  document.append("cameras",
-                  {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
-  document.append("nodes", {{"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"children", {0}}});
-  document.append(
-      "nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {1, 2, 3}}});
-  root["scenes"] = {{{"nodes", {1, 2}}}};
-  root["scene"] = 0;
-  return document;
 }
 
 TEST(LoadGltfHostile, TheFileThatTheOthersBreakLoads) {
@@ -294,7 +245,7 @@ TEST(LoadGltfHostile, BrokenContainersAreRefused) {
   const std::vector<std::tuple<const char*, Bytes, const char*>> files{
       {"empty", {}, "neither"},
       {"blank", text(" \n\t"), "neither"},
-      {"picture", png_of(1, 1, {1, 2, 3, 4}), "neither"},
+      {"picture", png_of(1, 1, std::vector<std::uint8_t>{1, 2, 3, 4}), "neither"},
       {"array", text("[]"), "neither"},
       {"only magic", text("glTF"), "within its header"},
       {"header of 4 GB", lying_header, "header claims 4294967295 bytes"},
@@ -324,20 +275,14 @@ TEST(LoadGltfHostile, BrokenContainersAreRefused) {
   expect_refused(folder / "folder.gltf", "not a regular file", "folder");
 }
 
-GltfDocument with_image(const Bytes& image) {
-  GltfDocument document = everything();
-  document.root["images"][0]["bufferView"] = document.view(image);
-  return document;
-}
-
 TEST(LoadGltfHostile, BrokenImagesAreRefused) {
-  const Bytes good = png_of(2, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  const Bytes good = png_of(2, 1, std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8});
   const TemporaryFolder folder;
   const std::vector<std::tuple<const char*, Bytes, const char*>> images{
-      {"long", png_of(20000, 10, {}), "20000 x 10 texels are too many"},
-      {"huge", png_of(100000, 100000, {}), "too large"},
-      {"without texels", png_of(16384, 16384, {}), "is corrupt"},
-      {"no size", png_of(0, 0, {}), "images[0]"},
+      {"long", png_of(20000, 10, std::vector<std::uint8_t>{}), "20000 x 10 texels are too many"},
+      {"huge", png_of(100000, 100000, std::vector<std::uint8_t>{}), "too large"},
+      {"without texels", png_of(16384, 16384, std::vector<std::uint8_t>{}), "is corrupt"},
+      {"no size", png_of(0, 0, std::vector<std::uint8_t>{}), "images[0]"},
       {"cut", Bytes(good.begin(), good.end() - 30), "is corrupt"},
       {"empty", {}, "images[0]"},
       {"jpeg header", {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10}, "images[0]: is no PNG or JPEG"},
@@ -345,106 +290,6 @@ TEST(LoadGltfHostile, BrokenImagesAreRefused) {
   for (const auto& [name, image, fragment] : images) {
     with_image(image).write_gltf(folder / "a.gltf");
     expect_refused(folder / "a.gltf", fragment, name);
-  }
-}
-
-/// Flips bits, overwrites, cuts, repeats: one to eight times.
-void mutate(Bytes& bytes, std::mt19937& random) {
-  const auto below = [&](std::size_t limit) { return random() % limit; };
-  for (std::size_t i = 0, count = 1 + below(8); i < count && bytes.size() > 1; ++i) {
-    const std::size_t at = below(bytes.size());
-    switch (below(6)) {
-      case 0:
-        bytes[at] ^= static_cast<std::uint8_t>(1u << below(8));
-        break;
-      case 1:
-        bytes[at] = static_cast<std::uint8_t>(random());
-        break;
-      case 2:
-        bytes[at] = static_cast<std::uint8_t>("0919e-[]{},\":"[below(13)]);
-        break;
-      case 3:
-        bytes[at] = 0xff;
-        break;
-      case 4:
-        bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at));
-        break;
-      default:
-        if (below(20) == 0) bytes.resize(at);
-    }
-  }
-}
-
-TEST(LoadGltfHostile, MutatedFilesLoadOrAreRefused) {
-  const TemporaryFolder folder;
-  const Bytes good = everything().glb();
-  std::mt19937 random(2008);
-  int loaded = 0, refused = 0;
-  for (int i = 0; i < 3000; ++i) {
-    Bytes bytes = good;
-    mutate(bytes, random);
-    write_file(folder / "a.glb", bytes);
-    ASSERT_NO_THROW(++(refusal(folder / "a.glb").empty() ? loaded : refused)) << "mutation " << i;
-  }
-  EXPECT_GT(loaded, 100);  // mutations reach behind the first check, too
-  EXPECT_GT(refused, 100);
-}
-
-/// Replaces a random value of the document by one that does not belong there.
-void bend(json& value, std::mt19937& random) {
-  json* target = &value;
-  while (target->is_structured() && !target->empty() && random() % 5 != 0) {
-    auto item = target->begin();
-    std::advance(item, static_cast<std::ptrdiff_t>(random() % target->size()));
-    target = &*item;
-  }
-  const std::vector<json> misfits{nullptr,
-                                  -1,
-                                  0,
-                                  1,
-                                  2,
-                                  255,
-                                  65536,
-                                  4294967296,
-                                  1e300,
-                                  -0.5,
-                                  "",
-                                  "data:;base64,AAAA",
-                                  true,
-                                  json::array(),
-                                  json::object(),
-                                  {0, 0},
-                                  {1e38, 0, 0},
-                                  {{"count", 3}}};
-  *target = misfits[random() % misfits.size()];
-}
-
-TEST(LoadGltfHostile, BentDocumentsLoadOrAreRefused) {
-  const TemporaryFolder folder;
-  const GltfDocument good = everything();
-  std::mt19937 random(1409060);
-  int loaded = 0, refused = 0;
-  for (int i = 0; i < 3000; ++i) {
-    GltfDocument document = good;
-    for (std::size_t bends = 1 + random() % 3; bends > 0; --bends) bend(document.root, random);
-    write_file(folder / "a.glb", document.glb());
-    ASSERT_NO_THROW(++(refusal(folder / "a.glb").empty() ? loaded : refused)) << "bend " << i;
-  }
-  EXPECT_GT(loaded, 30);
-  EXPECT_GT(refused, 100);
-}
-
-TEST(LoadGltfHostile, MutatedImagesLoadOrAreRefused) {
-  const TemporaryFolder folder;
-  std::vector<std::uint8_t> rgba(4 * 16 * 16);
-  std::mt19937 random(1216199);
-  for (std::uint8_t& code : rgba) code = static_cast<std::uint8_t>(random());
-  const Bytes good = png_of(16, 16, rgba);
-  for (int i = 0; i < 1000; ++i) {
-    Bytes image = good;
-    mutate(image, random);
-    with_image(image).write_glb(folder / "a.glb");
-    ASSERT_NO_THROW(refusal(folder / "a.glb")) << "mutation " << i;
   }
 }
 

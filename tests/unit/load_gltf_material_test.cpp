@@ -2,6 +2,7 @@
 // once.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/packing.hpp>
@@ -177,8 +178,43 @@ TEST(LoadGltfMaterials, TexturesAreDecodedToLinearHalfFloats) {
   }
 }
 
+TEST(LoadGltfMaterials, TexturesOfSixteenBits) {
+  const std::vector<std::uint16_t> rgba{32767, 1000, 65535, 49151};
+  const Texture texture = load(with_texture(png_of(1, 1, rgba))).textures.at(0);
+  const glm::vec4 texel(glm::unpackHalf4x16(std::bit_cast<std::uint64_t>(texture.texels.at(0))));
+  EXPECT_NEAR(texel.x, std::pow((32767.0 / 65535.0 + 0.055) / 1.055, 2.4), 0x1p-14);
+  EXPECT_NEAR(texel.y, 1000.0 / 65535.0 / 12.92, 0x1p-21);
+  EXPECT_EQ(texel.z, 1.0f);
+  EXPECT_NEAR(texel.w, 0.75, 0x1p-12);
+}
+
+// 8 x 8 texels of code 128, baseline, without subsampling that matters.
+constexpr const char* kGreyJpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsL"
+    "EBYQERMUFRUVDA8XGBYUGBIUFRT/2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQU"
+    "FBQUFBQUFBQUFBQUFBQUFBQUFBT/wAARCAAIAAgDASIAAhEBAxEB/8QAHwAAAQUBAQEBAQEAAAAAAAAAAAECAwQFBgcI"
+    "CQoL/8QAtRAAAgEDAwIEAwUFBAQAAAF9AQIDAAQRBRIhMUEGE1FhByJxFDKBkaEII0KxwRVS0fAkM2JyggkKFhcYGRol"
+    "JicoKSo0NTY3ODk6Q0RFRkdISUpTVFVWV1hZWmNkZWZnaGlqc3R1dnd4eXqDhIWGh4iJipKTlJWWl5iZmqKjpKWmp6ip"
+    "qrKztLW2t7i5usLDxMXGx8jJytLT1NXW19jZ2uHi4+Tl5ufo6erx8vP09fb3+Pn6/8QAHwEAAwEBAQEBAQEBAQAAAAAA"
+    "AAECAwQFBgcICQoL/8QAtREAAgECBAQDBAcFBAQAAQJ3AAECAxEEBSExBhJBUQdhcRMiMoEIFEKRobHBCSMzUvAVYnLR"
+    "ChYkNOEl8RcYGRomJygpKjU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6goOEhYaHiImKkpOUlZaX"
+    "mJmaoqOkpaanqKmqsrO0tba3uLm6wsPExcbHyMnK0tPU1dbX2Nna4uPk5ebn6Onq8vP09fb3+Pn6/9oADAMBAAIRAxEA"
+    "PwAooooA/9k=";
+
+TEST(LoadGltfMaterials, JpegTextures) {
+  GltfDocument document = with_texture({});
+  document.root["images"][0] = {{"uri", std::string("data:image/jpeg;base64,") + kGreyJpeg}};
+  const Texture texture = load(document).textures.at(0);
+  ASSERT_EQ(texture.texels.size(), 64u);
+  for (const glm::u16vec4 texel : texture.texels) {
+    EXPECT_NEAR(glm::unpackHalf1x16(texel.y), std::pow((128.0 / 255.0 + 0.055) / 1.055, 2.4),
+                0x1p-13);
+    EXPECT_EQ(glm::unpackHalf1x16(texel.w), 1.0f);
+  }
+}
+
 TEST(LoadGltfMaterials, Samplers) {
-  const Bytes image = png_of(1, 1, {1, 2, 3, 4});
+  const Bytes image = png_of(1, 1, std::vector<std::uint8_t>{1, 2, 3, 4});
   const Texture plain = load(with_texture(image)).textures.at(0);
   EXPECT_EQ(plain.wrap_s, Wrap::repeat);
   EXPECT_EQ(plain.wrap_t, Wrap::repeat);
@@ -192,7 +228,7 @@ TEST(LoadGltfMaterials, Samplers) {
 }
 
 TEST(LoadGltfMaterials, TexturesAreSharedAndMayBeFilesOrDataUris) {
-  const Bytes image = png_of(1, 1, {255, 255, 255, 255});
+  const Bytes image = png_of(1, 1, std::vector<std::uint8_t>{255, 255, 255, 255});
   GltfDocument document = with_texture(image);
   document.triangle()["material"] = document.append("materials", document.root["materials"][0]);
   EXPECT_EQ(load(document).textures.size(), 1u);
@@ -309,8 +345,8 @@ TEST(LoadGltfMaterials, WhatIsNotReadIsWarnedOfOnce) {
 }
 
 TEST(LoadGltfMaterials, WhatIsReadIsNotWarnedOf) {
-  GltfDocument document =
-      with_texture(png_of(1, 1, {9, 9, 9, 255}), {{"wrapS", 10497}, {"minFilter", 9987}});
+  GltfDocument document = with_texture(png_of(1, 1, std::vector<std::uint8_t>{9, 9, 9, 255}),
+                                       {{"wrapS", 10497}, {"minFilter", 9987}});
   json& material = document.root["materials"][0];
   material["alphaMode"] = "OPAQUE";
   material["extras"] = {{"extensions", {{"note", 1}}}};
