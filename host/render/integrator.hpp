@@ -52,7 +52,8 @@ struct Statistics {
   std::uint64_t paths_cut = 0;
   std::map<std::string, std::uint64_t> rejected;  ///< non_finite, clamped, overflow
   std::map<std::string, double> seconds;  ///< pipelines, pilot, eye, photons, grid, update, resolve
-  std::vector<double> pass_seconds;       ///< wall time of each pass
+  std::map<std::string, double> kernel_seconds;  ///< device time by kernel
+  std::vector<double> pass_seconds;              ///< wall time of each pass
 };
 
 /// Complete state between passes: enough to go on as if never stopped.

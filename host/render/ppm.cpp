@@ -263,6 +263,9 @@ void PpmIntegrator::record_initial_radii() {
 }
 
 const Statistics& PpmIntegrator::statistics() {
+  for (const auto& [kernel, time] : device_.times()) {
+    statistics_.kernel_seconds[kernel] = time.seconds;
+  }
   return statistics_;
 }
 

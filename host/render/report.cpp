@@ -97,6 +97,7 @@ std::string statistics_json(const Settings& settings, const Circumstances& circu
   for (const auto& [stage, time] : statistics.seconds) json["seconds"][stage] = time;
   for (const auto& [stage, time] : seconds) json["seconds"][stage] = time;
   json["pass_seconds"] = statistics.pass_seconds;
+  json["kernel_seconds"] = statistics.kernel_seconds;
   json["device_memory_bytes"] = circumstances.device_memory_bytes();
   json["paths_cut"] = statistics.paths_cut;
   json["rejected"] = {{"non_finite", 0}, {"clamped", 0}, {"overflow", 0}};
