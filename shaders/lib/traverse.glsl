@@ -31,8 +31,9 @@ GridRay make_grid_ray(vec3 origin, vec3 direction) {
   d = mix(d, mix(vec3(1e-10), vec3(-1e-10), lessThan(d, vec3(0.0))), lessThan(abs(d), vec3(1e-10)));
   GridRay ray;
   ray.inverse_direction = 1.0 / d;
-  float pad = 9.5367431640625e-7 * (65536.0 + max(abs(o.x), max(abs(o.y), abs(o.z))));
-  vec3 outward = mix(vec3(pad), vec3(-pad), lessThan(d, vec3(0.0)));
+  // An axis at a time: in a flat scene one has far finer planes than the others.
+  vec3 pad = 9.5367431640625e-7 * (65536.0 + abs(o));
+  vec3 outward = mix(pad, -pad, lessThan(d, vec3(0.0)));
   ray.near_offset = (o + outward) * ray.inverse_direction;
   ray.far_offset = (o - outward) * ray.inverse_direction;
   ray.near_shift = mix(uvec3(0u), uvec3(16u), lessThan(d, vec3(0.0)));
@@ -40,35 +41,59 @@ GridRay make_grid_ray(vec3 origin, vec3 direction) {
   return ray;
 }
 
-// Edge functions about the ray's origin, computed alike (and without contraction) for both triangles of an edge, so
-// that their signs agree and no ray passes between; zero counts as inside for both.
-// Woop, Benthin, Wald: Watertight Ray/Triangle Intersection (JCGT 2013), in the form of signed volumes.
-bool intersect_triangle(TriangleCorners corners, vec3 origin, vec3 direction, float t_max, out float t,
+// A sheared frame in which the ray starts at the origin and runs along the third axis, t being the third coordinate:
+// coordinates of a point are its dot products with the rows.
+struct RayFrame {
+  vec3 row_x, row_y, row_t;
+};
+
+RayFrame make_ray_frame(vec3 direction) {
+  vec3 size = abs(direction);
+  RayFrame frame;
+  if (size.z >= max(size.x, size.y)) {
+    frame.row_x = vec3(1.0, 0.0, -direction.x / direction.z);
+    frame.row_y = vec3(0.0, 1.0, -direction.y / direction.z);
+    frame.row_t = vec3(0.0, 0.0, 1.0 / direction.z);
+  } else if (size.y >= size.x) {
+    frame.row_x = vec3(0.0, -direction.z / direction.y, 1.0);
+    frame.row_y = vec3(1.0, -direction.x / direction.y, 0.0);
+    frame.row_t = vec3(0.0, 1.0 / direction.y, 0.0);
+  } else {
+    frame.row_x = vec3(-direction.y / direction.x, 1.0, 0.0);
+    frame.row_y = vec3(-direction.z / direction.x, 0.0, 1.0);
+    frame.row_t = vec3(1.0 / direction.x, 0.0, 0.0);
+  }
+  return frame;
+}
+
+vec3 to_ray_frame(RayFrame frame, vec3 origin, vec3 corner) {
+  precise vec3 p = corner - origin;
+  precise float x = p.x * frame.row_x.x + p.y * frame.row_x.y + p.z * frame.row_x.z;
+  precise float y = p.x * frame.row_y.x + p.y * frame.row_y.y + p.z * frame.row_y.z;
+  precise float t = p.x * frame.row_t.x + p.y * frame.row_t.y + p.z * frame.row_t.z;
+  return vec3(x, y, t);
+}
+
+// Watertight: a corner has the same x and y for all its triangles, and with these the sign of each edge function is
+// exact or zero, since rounding (without contraction) keeps the order of its two products. So the triangles of a
+// closed surface cover the ray as exact ones would; zero counts as inside for both neighbours.
+// Woop, Benthin, Wald: Watertight Ray/Triangle Intersection (JCGT 2013). t is a mean of the corners' t, so that even
+// a sliver seen edge-on is met where it is.
+bool intersect_triangle(TriangleCorners corners, vec3 origin, RayFrame frame, float t_max, out float t,
                         out vec2 barycentric) {
-  precise vec3 a = corners.corner0 - origin;
-  precise vec3 b = corners.corner1 - origin;
-  precise vec3 c = corners.corner2 - origin;
-  precise vec3 edge0 = c - a;
-  precise vec3 edge1 = a - b;
-  precise vec3 edge2 = b - c;
-  precise vec3 sum0 = c + a;
-  precise vec3 sum1 = a + b;
-  precise vec3 sum2 = b + c;
-  precise vec3 cross0 = sum0.yzx * edge0.zxy - sum0.zxy * edge0.yzx;
-  precise vec3 cross1 = sum1.yzx * edge1.zxy - sum1.zxy * edge1.yzx;
-  precise vec3 cross2 = sum2.yzx * edge2.zxy - sum2.zxy * edge2.yzx;
-  precise float u = cross0.x * direction.x + cross0.y * direction.y + cross0.z * direction.z;
-  precise float v = cross1.x * direction.x + cross1.y * direction.y + cross1.z * direction.z;
-  precise float w = cross2.x * direction.x + cross2.y * direction.y + cross2.z * direction.z;
+  vec3 a = to_ray_frame(frame, origin, corners.corner0);
+  vec3 b = to_ray_frame(frame, origin, corners.corner1);
+  vec3 c = to_ray_frame(frame, origin, corners.corner2);
+  precise float u = c.x * a.y - c.y * a.x;
+  precise float v = a.x * b.y - a.y * b.x;
+  precise float w = b.x * c.y - b.y * c.x;
   float lowest = min(u, min(v, w));
   float highest = max(u, max(v, w));
-  precise vec3 normal = edge0.yzx * edge1.zxy - edge0.zxy * edge1.yzx;
-  precise float denominator = normal.x * direction.x + normal.y * direction.y + normal.z * direction.z;
-  precise float numerator = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-  precise float volume = u + v + w;
-  t = numerator / denominator;
-  barycentric = vec2(u, v) / volume;
-  return (lowest >= 0.0 || highest <= 0.0) && denominator != 0.0 && volume != 0.0 && t > 0.0 && t < t_max;
+  precise float area = u + v + w;
+  precise float weighted = u * b.z + v * c.z + w * a.z;
+  t = weighted / area;
+  barycentric = vec2(u, v) / area;
+  return (lowest >= 0.0 || highest <= 0.0) && area != 0.0 && t > 0.0 && t < t_max;
 }
 
 void order_pair(inout float t0, inout uint ref0, inout float t1, inout uint ref1) {
@@ -87,6 +112,7 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
   const float kMiss = 3e38;
   Hit hit = Hit(t_max, PPM_NO_TRIANGLE, vec2(0.0));
   GridRay ray = make_grid_ray(origin, direction);
+  RayFrame frame = make_ray_frame(direction);
   uint stack[PPM_BVH_STACK];
   uint depth = 0u;
   uint ref = 0u;
@@ -105,6 +131,8 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
       vec4 t_near = max(max(near_x, near_y), max(near_z, vec4(0.0)));
       vec4 t_far = min(min(far_x, far_y), min(far_z, vec4(hit.t)));
       vec4 t = mix(vec4(kMiss), t_near, lessThanEqual(t_near, t_far));
+      // From so far away that rounding exceeds the grid, the inverted box of a missing child is met too.
+      t = mix(t, vec4(kMiss), equal(children, uvec4(PPM_BVH_EMPTY)));
 
       order_pair(t.x, children.x, t.y, children.y);
       order_pair(t.z, children.z, t.w, children.w);
@@ -127,7 +155,7 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
         float t;
         vec2 barycentric;
         if (slot != skip &&
-            intersect_triangle(fetch_triangle(slot), origin, direction, hit.t, t, barycentric) &&
+            intersect_triangle(fetch_triangle(slot), origin, frame, hit.t, t, barycentric) &&
             hit_filter(slot, barycentric)) {
           hit = Hit(t, slot, barycentric);
           if (any) return hit;
