@@ -81,6 +81,9 @@ GltfDocument with_image(const Bytes& image);
 Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba);
 Bytes png_of(std::uint32_t width, std::uint32_t height, const std::vector<std::uint16_t>& rgba);
 
+/// A baseline JPEG file of 8 x 8 texels of code 128.
+extern const char* const kGreyJpegBase64;
+
 std::string base64(const Bytes& bytes);
 void write_file(const std::filesystem::path& file, const Bytes& bytes);
 void write_file(const std::filesystem::path& file, const std::string& text);
