@@ -74,7 +74,9 @@ PPM_FN Fixed64 to_fixed(float x) {
   float whole = floor(x);
   Fixed64 result;
   result.high = uint(whole);
-  result.low = uint((x - whole) * 4294967296.0f + 0.5f);
+  float fraction = (x - whole) * 4294967296.0f;
+  // From 2^23 on a float is a whole number, which adding a half would round to an even one.
+  result.low = uint(fraction < 8388608.0f ? fraction + 0.5f : fraction);
   return result;
 }
 
