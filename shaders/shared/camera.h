@@ -65,15 +65,18 @@ PPM_FN float radical_inverse(uint index) {
 }
 
 // The film position of one of a pixel's `samples` eye paths, drawn from the filter, stratified by a
-// jittered Hammersley set: powers of two of samples fill every elementary interval; other numbers
-// are shifted at random on the torus, without which their strata would not cover the pixel evenly.
+// jittered Hammersley set. Its strata alone would not cover the pixel evenly (of n x n cells they
+// hold n), so they are moved at random: powers of two of samples by a digital shift, which keeps
+// one sample in every elementary interval; other numbers on the torus.
 // u: jitter (xy) and the pixel's shift (z).
 PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uint samples, vec3 u) {
   float strata = float(samples);
   float a = (float(sample_index) + u.x) / strata;
-  float b = radical_inverse(sample_index) + u.y / strata;
-  if ((samples & (samples - 1u)) != 0u) {
-    b += u.z;
+  float b = u.y / strata;
+  if ((samples & (samples - 1u)) == 0u) {
+    b += radical_inverse(sample_index ^ uint(u.z * strata));
+  } else {
+    b += radical_inverse(sample_index) + u.z;
     b -= floor(b);
   }
   // Rounding must not reach 1.
