@@ -21,7 +21,7 @@ PPM_FN uvec4 pack_photon_position(Photon photon) {
 }
 
 // The event count sits in the low byte of the third channel's mantissa, which is rounded to 16 bits
-// for it: an error below 2^-17 of that channel, against 4 bytes more a photon.
+// for it: an error up to 2^-16 of that channel, against 4 bytes more a photon.
 PPM_FN uvec4 pack_photon_flux(Photon photon) {
   uint blue = (floatBitsToUint(photon.flux.z) + 0x80u) & 0xffffff00u;
   return uvec4(floatBitsToUint(photon.flux.x), floatBitsToUint(photon.flux.y),
