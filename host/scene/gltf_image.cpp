@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 
+#include "gltf_jpeg.hpp"
+
 namespace {
 
 // Compressed data may unfold to any size, whatever dimensions the image states; what the decoder
@@ -25,7 +27,6 @@ void* limited_realloc(void* memory, std::size_t size) {
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
 #include <stb/stb_image.h>
@@ -33,8 +34,9 @@ void* limited_realloc(void* memory, std::size_t size) {
 namespace ppm::scene::gltf {
 namespace {
 
-constexpr int kLargestSide = 16384;
+constexpr std::uint64_t kLargestSide = 16384;
 constexpr int kChannels = 4;
+constexpr const char* kRemedy = "convert it to PNG or JPEG, or export it again";
 
 /// IEC 61966-2-1.
 double srgb_to_linear(double encoded) {
@@ -70,43 +72,59 @@ struct FreeStb {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
 
-Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
-  constexpr const char* kRemedy = "convert it to PNG or JPEG, or export it again";
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    image.fail("is larger than 2 GiB", "make it smaller");
-  }
-  const int size = static_cast<int>(bytes.size());
-  allocation_limit = 65536;
-  int width = 0, height = 0, channels = 0;
-  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
-    image.fail("is no PNG or JPEG image, or broken or too large", kRemedy);
-  }
-  const std::uint64_t count =
-      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (width <= 0 || height <= 0 || width > kLargestSide || height > kLargestSide ||
-      count > texel_budget) {
+void check_size(const Element& image, std::uint64_t width, std::uint64_t height,
+                std::uint64_t texel_budget) {
+  if (width > kLargestSide || height > kLargestSide || width * height > texel_budget) {
     image.fail(
         "its " + std::to_string(width) + " x " + std::to_string(height) + " texels are too many",
         "use smaller images");
   }
-  // Four channels of 16 bits, twice for the decoder's copies, sides rounded up to JPEG's largest
-  // blocks; and the compressed data, whose buffer grows by doubling.
-  allocation_limit =
-      16 * (static_cast<std::size_t>(width) + 64) * (static_cast<std::size_t>(height) + 64) +
-      4 * bytes.size();
+}
+
+Image decode_as_jpeg(const Element& image, ByteView bytes, JpegSize size) {
+  const std::optional<JpegTexels> texels = decode_jpeg(bytes);
+  if (!texels) image.fail("is corrupt", kRemedy);
+  if (texels->damaged) image.warn("damaged JPEG", "is damaged; what can be read of it is used");
+  return {size.width, size.height,
+          decode_texels(texels->rgba.data(), std::size_t{size.width} * size.height)};
+}
+
+Image decode_as_png(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  allocation_limit = 65536;
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
+    image.fail("is no PNG or JPEG image, or broken or too large", kRemedy);
+  }
+  const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
+  check_size(image, columns, rows, texel_budget);
+  // Four channels of 16 bits, twice for the decoder's copies; and the compressed data, whose buffer
+  // grows by doubling.
+  const std::size_t count = std::size_t{columns} * rows;
+  allocation_limit = 16 * (count + columns + rows) + 4 * bytes.size() + 65536;
   const auto as_image = [&](auto* codes) {
     const std::unique_ptr<void, FreeStb> owner(codes);
     if (codes == nullptr) {
       image.fail(std::string("is corrupt: ") + stbi_failure_reason(), kRemedy);
     }
-    return Image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                 decode_texels(codes, count)};
+    return Image{columns, rows, decode_texels(codes, count)};
   };
   if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
     return as_image(
         stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
   }
   return as_image(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
+}
+
+Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    image.fail("is larger than 2 GiB", "make it smaller");
+  }
+  if (const std::optional<JpegSize> size = jpeg_size(bytes)) {
+    check_size(image, size->width, size->height, texel_budget);
+    return decode_as_jpeg(image, bytes, *size);
+  }
+  return decode_as_png(image, bytes, texel_budget);
 }
 
 }  // namespace
