@@ -38,6 +38,40 @@ void append(SavedState& state, const void* data, std::size_t size) {
   state.insert(state.end(), bytes, bytes + size);
 }
 
+void add(Hash& hash, const scene::Material& material) {
+  hash.add(&material.base_color, sizeof material.base_color);
+  hash.add(material.base_color_texture.value_or(0xffffffffu));
+  hash.add(material.metallic);
+  hash.add(material.roughness);
+  hash.add(material.specular);
+  hash.add(&material.specular_color, sizeof material.specular_color);
+  hash.add(material.ior);
+  hash.add(material.transmission);
+  hash.add(material.solid);
+  hash.add(&material.attenuation_color, sizeof material.attenuation_color);
+  hash.add(material.attenuation_distance);
+  hash.add(&material.emission, sizeof material.emission);
+  hash.add(material.double_sided);
+}
+
+void add(Hash& hash, const scene::Texture& texture) {
+  hash.add(texture.width);
+  hash.add(texture.height);
+  hash.add(static_cast<std::uint32_t>(texture.wrap_s));
+  hash.add(static_cast<std::uint32_t>(texture.wrap_t));
+  hash.add(texture.nearest);
+  hash.add(texture.texels.data(), texture.texels.size() * sizeof texture.texels[0]);
+}
+
+void add(Hash& hash, const scene::PunctualLight& light) {
+  hash.add(static_cast<std::uint32_t>(light.kind));
+  hash.add(&light.position, sizeof light.position);
+  hash.add(&light.direction, sizeof light.direction);
+  hash.add(&light.intensity, sizeof light.intensity);
+  hash.add(light.inner_cone_angle);
+  hash.add(light.outer_cone_angle);
+}
+
 [[noreturn]] void refuse(const char* why) {
   throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
 }
@@ -60,6 +94,9 @@ std::uint64_t PpmIntegrator::fingerprint() const {
     for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
     hash.add(triangle.material);
   }
+  for (const scene::Material& material : scene_.materials) add(hash, material);
+  for (const scene::Texture& texture : scene_.textures) add(hash, texture);
+  for (const scene::PunctualLight& light : scene_.punctual_lights) add(hash, light);
   return hash.value();
 }
 
