@@ -1,6 +1,5 @@
 // Light stays on its side of a surface, however thin: exactly, since no photon beyond it may count.
 #include "plate.hpp"
-#include "small_room.hpp"
 
 namespace ppm::test {
 namespace {
