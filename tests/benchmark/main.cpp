@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <random>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,6 +18,7 @@
 #include "embree_rays.hpp"
 #include "embree_tree.hpp"
 #include "failure.hpp"
+#include "kernel_rays.hpp"
 #include "passes.hpp"
 #include "room.hpp"
 
@@ -33,6 +37,63 @@ double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Rays whose hit lies elsewhere than Embree says. Both work in float, and what is nearer than
+// Embree's rays start does not count.
+std::size_t count_different(const EmbreeScene& embree, std::span<const Ray> rays,
+                            const std::vector<float>& distances) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    float expected = 1e30f;
+    embree.intersect(rays[i], expected);
+    const float tolerance = 1e-4f * std::max(1.0f, expected);
+    count += std::abs(distances[i] - expected) > tolerance && distances[i] > 2e-5f;
+  }
+  return count;
+}
+
+// Traversal by itself: the same rays through the kernels and through Embree.
+void compare_rays(gpu::Device& device, const EmbreeScene& embree, const bvh::Bvh& tree,
+                  const char* scene_name, const char* name,
+                  std::span<const scene::Triangle> triangles, std::span<const Ray> rays,
+                  unsigned threads) {
+  KernelRays kernel(device, tree, triangles, rays);
+  kernel.rays_per_second();  // compiles
+  std::vector<double> theirs, ours, ratio;
+  for (int i = 0; i < kRepeats; ++i) {
+    const double before = rays_per_second(embree, rays, threads);
+    ours.push_back(kernel.rays_per_second());
+    theirs.push_back(0.5 * (before + rays_per_second(embree, rays, threads)));
+    ratio.push_back(ours.back() / theirs.back());
+  }
+  fmt::print("{:<20} {:<18} {:>8.2f} {:>8.2f} {:>8.2f} {:>10}\n", scene_name, name,
+             1e-6 * median(ours), 1e-6 * median(theirs), median(ratio),
+             count_different(embree, rays, kernel.distances()));
+}
+
+void measure_traversal(gpu::Device& device, RTCDevice embree_device, unsigned threads) {
+  fmt::print("\nClosest hits, million a second: kernels on {}, rtcIntersect1 on {} threads\n",
+             device.description().name, threads);
+  fmt::print("{:<20} {:<18} {:>8} {:>8} {:>8} {:>10}\n", "scene", "rays", "kernels", "Embree",
+             "ratio", "different");
+  struct View {
+    const char* name;
+    scene::Scene scene;
+  };
+  for (const View& view : {View{"large room", support::make_room(support::kLargeRoomTriangles)},
+                           View{"terrain of 1.5M", support::make_terrain(1500000)}}) {
+    const std::span<const scene::Triangle> triangles = view.scene.triangles;
+    const EmbreeScene embree(embree_device, triangles);
+    const bvh::Bvh tree = bvh::build(triangles, threads);
+    const std::vector<Ray> camera = camera_rays(view.scene.cameras.front(), 640, 480);
+    std::vector<Ray> bounces = bounce_rays(embree, triangles, camera);
+    compare_rays(device, embree, tree, view.name, "camera", triangles, camera, threads);
+    compare_rays(device, embree, tree, view.name, "diffuse bounce", triangles, bounces, threads);
+    std::shuffle(bounces.begin(), bounces.end(), std::mt19937(1));
+    compare_rays(device, embree, tree, view.name, "the same, shuffled", triangles, bounces,
+                 threads);
+  }
 }
 
 void compare_trees(RTCDevice embree, const char* name, const scene::Scene& scene,
@@ -84,8 +145,7 @@ double product_median(const std::vector<double>& seconds,
   return median(millions);
 }
 
-void measure_rendering(const Unit& unit, unsigned threads) {
-  gpu::Device device({});
+void measure_rendering(gpu::Device& device, const Unit& unit, unsigned threads) {
   const scene::Scene room = support::make_room();
   const PassTimes times =
       measure_passes(device, room, threads, kRepeats, [&] { return unit.rays_per_second(); });
@@ -100,8 +160,8 @@ void measure_rendering(const Unit& unit, unsigned threads) {
     fmt::print("{:<34} {:>8.1f} {:>20.2f}\n", name, 1e3 * median(seconds),
                product_median(seconds, units));
   };
-  row("before the first pass, all told", times.prepare, times.unit_at_first);
-  row("eye pass", times.eye, times.unit_at_first);
+  row("before the first pass, all told", times.prepare, times.unit_at_start);
+  row("eye pass", times.eye, times.unit_at_start);
   row("pass at the start", times.first, times.unit_at_first);
   row("pass once radii have halved", times.shrunk, times.unit_at_shrunk);
 }
@@ -118,7 +178,9 @@ void measure_trees(RTCDevice embree, unsigned threads) {
 
 int run(unsigned threads) {
   const RTCDevice embree = rtcNewDevice(fmt::format("threads={}", threads).c_str());
-  measure_rendering(Unit(embree, threads), threads);
+  gpu::Device device({});
+  measure_rendering(device, Unit(embree, threads), threads);
+  measure_traversal(device, embree, threads);
   measure_trees(embree, threads);
   rtcReleaseDevice(embree);
   return 0;

@@ -35,19 +35,26 @@ PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigne
   Log log(Verbosity::quiet);
   PassTimes times;
   std::unique_ptr<render::Integrator> integrator;
+  // The mean of the unit before and after, lest it wander meanwhile.
+  const auto beside_unit = [&](std::vector<double>& units, const auto& work) {
+    const double before = unit();
+    work();
+    units.push_back(0.5 * (before + unit()));
+  };
   for (int i = 0; i < repeats; ++i) {
     integrator.reset();
     integrator = render::make_integrator(settings, scene, device, log, threads);
-    times.unit_at_first.push_back(unit());
-    times.prepare.push_back(seconds_of([&] { integrator->prepare(never); }));
+    beside_unit(times.unit_at_start,
+                [&] { times.prepare.push_back(seconds_of([&] { integrator->prepare(never); })); });
     times.eye.push_back(integrator->statistics().seconds.at("eye"));
     integrator->advance(never);
-    times.first.push_back(seconds_of([&] { integrator->advance(never); }));
+    beside_unit(times.unit_at_first,
+                [&] { times.first.push_back(seconds_of([&] { integrator->advance(never); })); });
   }
   for (int pass = 2; pass < passes_until_half(settings.alpha); ++pass) integrator->advance(never);
   for (int i = 0; i < repeats; ++i) {
-    times.unit_at_shrunk.push_back(unit());
-    times.shrunk.push_back(seconds_of([&] { integrator->advance(never); }));
+    beside_unit(times.unit_at_shrunk,
+                [&] { times.shrunk.push_back(seconds_of([&] { integrator->advance(never); })); });
   }
   return times;
 }

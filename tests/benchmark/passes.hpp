@@ -18,8 +18,8 @@ struct PassTimes {
   std::vector<double> eye;      ///< the eye passes' share of that
   std::vector<double> first;   ///< a pass at the start (the second one: the first compiles kernels)
   std::vector<double> shrunk;  ///< a pass once radii have halved
-  /// Embree's rays a second, measured just before each of the above.
-  std::vector<double> unit_at_first, unit_at_shrunk;
+  /// Embree's rays a second around prepare and eye, first, shrunk.
+  std::vector<double> unit_at_start, unit_at_first, unit_at_shrunk;
 };
 
 /// Renders `scene` at 640 x 480, one eye path a pixel, 100000 photons a pass.

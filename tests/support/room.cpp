@@ -220,6 +220,13 @@ scene::Scene make_terrain(std::size_t triangles) {
                             (height(x, z - step) - height(x, z + step)) / (2.0 * step));
     return Surface{glm::vec3(x, height(x, z), z), glm::vec3(glm::normalize(normal))};
   });
+  scene::Camera camera;
+  camera.name = "aloft";
+  camera.position = {0.0, 0.6, 0.9};
+  camera.forward = glm::normalize(glm::dvec3(0.0, -0.6, -1.0));
+  camera.up = glm::cross(camera.right, camera.forward);
+  camera.yfov = 1.0;
+  scene.cameras.push_back(camera);
   find_bounds(scene);
   return scene;
 }

@@ -16,8 +16,7 @@ inline constexpr std::size_t kRoomTriangles = 73000, kLargeRoomTriangles = 20300
 /// tessellation. At least 5000.
 scene::Scene make_room(std::size_t triangles = kRoomTriangles);
 
-/// Hills without walls: one height field of about `triangles` triangles, unlit and without a
-/// camera.
+/// Hills without walls: one height field of about `triangles` triangles, unlit, seen from above.
 scene::Scene make_terrain(std::size_t triangles);
 
 }  // namespace ppm::support
