@@ -15,22 +15,22 @@ constexpr std::uint32_t kMaxAxis = 65536;
 // A dense table may have this many entries: scanning a million costs some 10 ms on lavapipe.
 constexpr std::uint64_t kDenseEntries = 1u << 20;
 
-std::uint32_t hashed_entries(std::uint64_t photons) {
+std::uint32_t suitable_entries(std::uint64_t photons) {
   return static_cast<std::uint32_t>(
       std::bit_ceil(std::clamp<std::uint64_t>(2 * photons, 1u << 16, 1u << 22)));
 }
 
 std::uint64_t max_entries(std::uint64_t photons) {
-  return std::max<std::uint64_t>(kDenseEntries, hashed_entries(photons) + kMaxAxis);
+  return std::max<std::uint64_t>(kDenseEntries, suitable_entries(photons) + kMaxAxis);
 }
 
 }  // namespace
 
 PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
-                       std::uint64_t photon_capacity)
+                       std::uint64_t photon_capacity, std::uint32_t hashed_entries)
     : bounds_min_(bounds_min),
       bounds_max_(bounds_max),
-      table_entries_(hashed_entries(photon_capacity)),
+      table_entries_(hashed_entries != 0 ? hashed_entries : suitable_entries(photon_capacity)),
       count_(device, shaders::grid_count),
       scatter_(device, shaders::grid_scatter),
       scan_(device, max_entries(photon_capacity)),
@@ -63,7 +63,7 @@ void PhotonGrid::build(gpu::Device& device, const gpu::BindingTable& photon_tabl
     constants_.table_mask = PPM_GRID_DENSE;
     entries = static_cast<std::uint32_t>(dense);
   } else {
-    const std::uint32_t hashed = std::min(table_entries_, hashed_entries(photons));
+    const std::uint32_t hashed = std::min(table_entries_, suitable_entries(photons));
     constants_.table_mask = hashed - 1;
     entries = hashed + constants_.size.x;
   }

@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
-#include <random>
 
 #include "brute_force_rays.hpp"
 #include "buffer.hpp"
@@ -13,6 +11,7 @@
 #include "device_fixture.hpp"
 #include "kernel.hpp"
 #include "ppm_pass_test_shaders.hpp"
+#include "randoms.hpp"
 #include "scene_buffers.hpp"
 #include "scene_pieces.hpp"
 
@@ -23,28 +22,6 @@ using glm::vec3;
 
 struct ProbePush {
   std::uint32_t first = 0, count = 0, refuse_odd = 0;
-};
-
-class Randoms {
- public:
-  explicit Randoms(std::uint32_t seed) : engine_(seed) {}
-  float in(float low, float high) {
-    return low + (high - low) * static_cast<float>(engine_() >> 8) * 0x1p-24f;
-  }
-  vec3 in_cube(float half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
-  vec3 direction() {
-    for (;;) {
-      const vec3 v = in_cube(1.0f);
-      const float length = glm::length(v);
-      if (length > 0.1f && length < 1.0f) return v / length;
-    }
-  }
-  std::uint32_t below(std::size_t count) {
-    return static_cast<std::uint32_t>(engine_() % static_cast<std::uint32_t>(count));
-  }
-
- private:
-  std::mt19937 engine_;
 };
 
 class Traverse : public DeviceTest {
