@@ -202,7 +202,12 @@ PPM_FN BsdfSample bsdf_sample(Bsdf bsdf, vec3 wo, vec3 u, uint transport) {
     result.weight = specular.transmitted / choice.transmission;
     if (transport == PPM_TRANSPORT_RADIANCE) result.weight /= bsdf.eta * bsdf.eta;
     result.forward_pdf_solid_angle = choice.transmission;
-    result.reverse_pdf_solid_angle = choice.transmission;
+    // The way back starts on the other side, where other lobes may share the choice differently.
+    Bsdf beyond = bsdf;
+    beyond.eta = 1.0f / bsdf.eta;
+    SpecularLobes back = specular_lobes(beyond, specular.cos_transmitted);
+    result.reverse_pdf_solid_angle =
+        lobe_choice(beyond, back, specular.cos_transmitted).transmission;
     result.specular = 1u;
     result.transmission = 1u;
     return result;
