@@ -49,7 +49,7 @@ Rendering render_scene(gpu::Device& device, const scene::Scene& scene,
     const auto entry = rejected.find(kind);
     EXPECT_TRUE(entry == rejected.end() || entry->second == 0) << kind << " was rejected";
   }
-  EXPECT_EQ(rendering.statistics.paths_cut, 0u);
+  EXPECT_LE(rendering.statistics.paths_cut, rendering.statistics.photons_emitted / 5000);
   return rendering;
 }
 
