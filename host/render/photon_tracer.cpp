@@ -10,8 +10,8 @@ namespace {
 // Bounces that one dispatch follows a path. Few, while many paths are alive and lanes would idle
 // beside longer ones; many at the end, when rounds of few paths would cost more to submit than to
 // trace.
-constexpr std::uint32_t kBouncesOfMany = 1;
-constexpr std::uint32_t kBouncesOfFew = 8;
+constexpr std::uint32_t kBouncesOfMany = 2;
+constexpr std::uint32_t kBouncesOfFew = 4;
 constexpr std::uint32_t kFewPaths = 4096;
 
 }  // namespace
