@@ -6,9 +6,9 @@
 // N_k were k passes' density times the disc's area: R^2 falls as k^(alpha - 1), N = alpha C grows
 // as k^alpha.
 #include <cmath>
-#include <cstring>
 
 #include "plate.hpp"
+#include "saved_state.hpp"
 
 namespace ppm::test {
 namespace {
@@ -23,22 +23,16 @@ struct Means {
   double radius2 = 0.0, count = 0.0;  // R^2 in world units, N = alpha C
 };
 
-// A saved state: five 64-bit words, then for each hit point lambda and R^2 (four floats, working
-// frame) and C (32 bits).
 Means means_of(const render::SavedState& state, double scale) {
-  constexpr std::size_t kHeader = 40, kRecord = 20;
+  const auto statistics = hit_statistics(state);
+  EXPECT_EQ(statistics.size(), 256u);
+  const double hits = static_cast<double>(statistics.size());
   Means means;
-  double hits = 0.0;
-  for (std::size_t at = kHeader; at + kRecord <= state.size(); at += kRecord, ++hits) {
-    float statistic[4];
-    std::uint32_t count;
-    std::memcpy(statistic, &state[at], sizeof statistic);
-    std::memcpy(&count, &state[at + sizeof statistic], sizeof count);
-    means.radius2 += statistic[3] / (scale * scale);
-    means.count += kAlpha * count;
+  for (const HitStatistics& hit : statistics) {
+    means.radius2 += hit.radius2 / (scale * scale) / hits;
+    means.count += kAlpha * hit.photon_count / hits;
   }
-  EXPECT_EQ(hits, 256.0);
-  return {means.radius2 / hits, means.count / hits};
+  return means;
 }
 
 // R_k^2 / R_0^2.
