@@ -39,10 +39,9 @@ void add_half_room(GltfWriter& writer, double side) {
 //
 // Both pictures estimate the same radiance with the same radii, and twice the photons keep their
 // density, so that biases agree too, but within a radius of the mirror, where discs on the walls
-// are cut in one scene only; the camera's field of view leaves that out (the mirror is met at |y|,
-// |z| of at most 0.8 * tan(0.5) * sqrt(2) = 0.6, behind which a wall at 1 is hit no closer than 0.5
-// behind the mirror). Allowed is noise alone: 6 standard errors of the difference for 16 blocks of
-// 3 channels, of 8 + 8 seeds (Student's t with 14 degrees: 3e-5 each).
+// are cut in one scene only: the camera, 0.2 from the mirror with tan(0.5) to each side, sees of
+// the walls none but the one opposite the mirror. Allowed is noise alone: 6 standard errors of the
+// difference for 16 blocks of 3 channels, of 8 + 8 seeds (Student's t with 14 degrees: 3e-5 each).
 TEST_F(MirrorImage, EqualsTheThing) {
   const auto blocks = [](bool with_mirror) {
     GltfWriter writer;
