@@ -294,12 +294,15 @@ TEST_P(LightTest, ConnectionsEstimateTheIrradiance) {
     Units units(114);
     statistics::Moments estimate;
     const bool delta = light().record.kind != PPM_LIGHT_TRIANGLE;
+    const bool unlit =
+        light().record.kind != PPM_LIGHT_DIRECTIONAL && irradiance(light(), at) == 0.0;
     for (int i = 0; i < (delta ? 2 : kSamples / 2); ++i) {
       const LightConnection seen = light_connect(light(), at.point, units.next2());
       const double cosine = std::max(0.0f, dot(seen.direction, at.normal));
       estimate.add(double(seen.radiance.z) * cosine / seen.pdf_solid_angle);
       ASSERT_NEAR(seen.radiance.x * 7.0f, seen.radiance.z * 3.0f, 1e-5f * seen.radiance.z);
       ASSERT_NEAR(length(seen.direction), 1.0f, 1e-6f);
+      ASSERT_EQ(seen.radiance == vec3(0.0f), unlit) << "the dark side of a light gives nothing";
     }
     const double expected = light().record.emission.z * irradiance(light(), at);
     if (delta || expected == 0.0) {
