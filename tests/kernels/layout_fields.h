@@ -3,101 +3,86 @@
 #ifndef PPM_TESTS_LAYOUT_FIELDS_H
 #define PPM_TESTS_LAYOUT_FIELDS_H
 
+// clang-format off
+
 #define PPM_FIELDS_BVH_NODE(r) U4(r.box_x) U4(r.box_y) U4(r.box_z) U4(r.children)
 #define PPM_FIELDS_TRIANGLE_POSITIONS(r) \
   F3(r.corner0) U1(r.material) F3(r.corner1) U1(r.spare1) F3(r.corner2) U1(r.spare2)
-#define PPM_FIELDS_TRIANGLE_SHADING(r)                                                      \
-  U1(r.normal0)                                                                             \
-  U1(r.normal1)                                                                             \
-  U1(r.normal2) U1(r.material) F2(r.texcoord0) F2(r.texcoord1) F2(r.texcoord2) U2(r.color0) \
-      U2(r.color1) U2(r.color2)
-#define PPM_FIELDS_MATERIAL_RECORD(r)                                                              \
-  F3(r.base_color)                                                                                 \
-  U1(r.texture)                                                                                    \
-  F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) F3(r.specular_f0) F1(r.specular_f90) \
-      F3(r.emission) U1(r.flags) F3(r.absorption) U1(r.spare)
+#define PPM_FIELDS_TRIANGLE_SHADING(r) \
+  U1(r.normal0) U1(r.normal1) U1(r.normal2) U1(r.material) F2(r.texcoord0) F2(r.texcoord1) \
+  F2(r.texcoord2) U2(r.color0) U2(r.color1) U2(r.color2)
+#define PPM_FIELDS_MATERIAL_RECORD(r) \
+  F3(r.base_color) U1(r.texture) F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) \
+  F3(r.specular_f0) F1(r.specular_f90) F3(r.emission) U1(r.flags) F3(r.absorption) U1(r.spare)
 #define PPM_FIELDS_TEXTURE_RECORD(r) U1(r.width) U1(r.height) U1(r.first) U1(r.sampling)
-#define PPM_FIELDS_LIGHT_RECORD(r)                                                                \
-  F3(r.position)                                                                                  \
-  U1(r.kind)                                                                                      \
-  F3(r.emission) F1(r.probability) F3(r.direction) U1(r.triangle) F1(r.cos_inner) F1(r.cos_outer) \
-      U1(r.alias_threshold) U1(r.alias)
-#define PPM_FIELDS_SCENE_CONSTANTS(r)                                                              \
-  F3(r.grid_origin)                                                                                \
-  U1(r.light_count)                                                                                \
-  F3(r.grid_step) F1(r.total_power) F3(r.bounding_centre) F1(r.bounding_radius)                    \
-      F3(r.camera_position) F1(r.camera_tan_half_y) F3(r.camera_right) F1(r.camera_tan_half_x)     \
-          F3(r.camera_up) U1(r.width) F3(r.camera_forward) U1(r.height) U1(r.seed) U1(r.max_depth) \
-              U1(r.photon_bounce_cap) U1(r.eye_bounce_cap)
+#define PPM_FIELDS_LIGHT_RECORD(r) \
+  F3(r.position) U1(r.kind) F3(r.emission) F1(r.probability) F3(r.direction) U1(r.triangle) \
+  F1(r.cos_inner) F1(r.cos_outer) U1(r.alias_threshold) U1(r.alias)
+#define PPM_FIELDS_SCENE_CONSTANTS(r) \
+  F3(r.grid_origin) U1(r.light_count) F3(r.grid_step) F1(r.total_power) F3(r.bounding_centre) \
+  F1(r.bounding_radius) F3(r.camera_position) F1(r.camera_tan_half_y) F3(r.camera_right) \
+  F1(r.camera_tan_half_x) F3(r.camera_up) U1(r.width) F3(r.camera_forward) U1(r.height) \
+  U1(r.seed) U1(r.max_depth) U1(r.photon_bounce_cap) U1(r.eye_bounce_cap)
 #define PPM_FIELDS_PHOTON_PATH(r) \
   F3(r.origin) U1(r.path) F3(r.direction) U1(r.state) F3(r.flux) U1(r.skip)
-#define PPM_FIELDS_PHOTON_PUSH(r)                                                      \
-  U1(r.first)                                                                          \
-  U1(r.count)                                                                          \
-  U1(r.pass) U1(r.emit_first) U1(r.generate) U1(r.photon_capacity) U1(r.path_capacity) \
-      U1(r.stream) U1(r.bounces)
+#define PPM_FIELDS_PHOTON_PUSH(r) \
+  U1(r.first) U1(r.count) U1(r.pass) U1(r.emit_first) U1(r.generate) U1(r.photon_capacity) \
+  U1(r.path_capacity) U1(r.stream) U1(r.bounces)
 #define PPM_FIELDS_GRID_CONSTANTS(r) F3(r.origin) F1(r.inverse_cell) U3(r.size) U1(r.table_mask)
 #define PPM_FIELDS_GRID_PUSH(r) U1(r.first) U1(r.count) PPM_FIELDS_GRID_CONSTANTS(r.grid)
 #define PPM_FIELDS_SCAN_PUSH(r) U1(r.first) U1(r.count) U1(r.total) U1(r.slice)
-#define PPM_FIELDS_EYE_PATH(r)                                                                   \
-  F3(r.origin)                                                                                   \
-  U1(r.pixel)                                                                                    \
-  F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.sample_index) U1(r.code) U1(r.splits) \
-      F1(r.distance)
-#define PPM_FIELDS_EYE_PUSH(r)                                                                  \
-  U1(r.first)                                                                                   \
-  U1(r.count)                                                                                   \
-  U1(r.pass) U1(r.generate) U1(r.tile_first) U1(r.samples) U1(r.filter_kind) U1(r.hit_capacity) \
-      U1(r.path_capacity) F1(r.split_weight)
-#define PPM_FIELDS_HIT_POINT(r)                                                                  \
-  F3(r.position)                                                                                 \
-  U1(r.geometric_normal)                                                                         \
-  U1(r.shading_normal) U1(r.outgoing) U1(r.statistics) U1(r.flags) F3(r.weight) U1(r.bsdf_extra) \
-      U4(r.bsdf)
+#define PPM_FIELDS_EYE_PATH(r) \
+  F3(r.origin) U1(r.pixel) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.sample_index) \
+  U1(r.code) U1(r.splits) F1(r.distance)
+#define PPM_FIELDS_EYE_PUSH(r) \
+  U1(r.first) U1(r.count) U1(r.pass) U1(r.generate) U1(r.tile_first) U1(r.samples) \
+  U1(r.filter_kind) U1(r.hit_capacity) U1(r.path_capacity) F1(r.split_weight)
+#define PPM_FIELDS_HIT_POINT(r) \
+  F3(r.position) U1(r.geometric_normal) U1(r.shading_normal) U1(r.outgoing) U1(r.statistics) \
+  U1(r.flags) F3(r.weight) U1(r.bsdf_extra) U4(r.bsdf)
 #define PPM_FIELDS_STAGED_KEY(r) U1(r.group) U1(r.order) U1(r.code) F1(r.footprint)
 #define PPM_FIELDS_EYE_ORDER_PUSH(r) U1(r.first) U1(r.count) U1(r.samples)
-#define PPM_FIELDS_GATHER_SUM(r)                                                    \
-  U1(r.count)                                                                       \
-  U1(r.flux[0])                                                                     \
-  U1(r.flux[1]) U1(r.flux[2]) U1(r.flux[3]) U1(r.flux[4]) U1(r.flux[5]) U1(r.spare) \
-      U1(r.second_moment[0]) U1(r.second_moment[1])
+#define PPM_FIELDS_GATHER_SUM(r) \
+  U1(r.count) U1(r.flux[0]) U1(r.flux[1]) U1(r.flux[2]) U1(r.flux[3]) U1(r.flux[4]) U1(r.flux[5]) \
+  U1(r.spare) U1(r.second_moment[0]) U1(r.second_moment[1])
 #define PPM_FIELDS_GATHER_CURSOR(r) U1(r.hit) U1(r.row) U1(r.offset)
 #define PPM_FIELDS_GATHER_PUSH(r) \
-  U1(r.first) U1(r.count) U1(r.from_cursors) U1(r.cursor_capacity) PPM_FIELDS_GRID_CONSTANTS(r.grid)
+  U1(r.first) U1(r.count) U1(r.from_cursors) U1(r.cursor_capacity) \
+  PPM_FIELDS_GRID_CONSTANTS(r.grid)
 #define PPM_FIELDS_UPDATE_PUSH(r) U1(r.first) U1(r.count) F1(r.alpha)
 #define PPM_FIELDS_RESOLVE_PUSH(r) U1(r.first) U1(r.count) U1(r.samples) U1(r.skip) F1(r.scale)
-#define PPM_FIELDS_PILOT_PUSH(r)                                                    \
-  U1(r.first)                                                                       \
-  U1(r.count)                                                                       \
-  U1(r.round_index) U1(r.last_round) F1(r.radius) F1(r.footprints_min) U1(r.wanted) \
-      PPM_FIELDS_GRID_CONSTANTS(r.grid)
+#define PPM_FIELDS_PILOT_PUSH(r) \
+  U1(r.first) U1(r.count) U1(r.round_index) U1(r.last_round) F1(r.radius) F1(r.footprints_min) \
+  U1(r.wanted) PPM_FIELDS_GRID_CONSTANTS(r.grid)
 #define PPM_FIELDS_RADIUS_PUSH(r) U1(r.first) U1(r.count) F1(r.fixed_radius) F1(r.footprints)
 
 // RECORD(type, name, fields), in the order in which one block holds two of each.
-#define PPM_ALL_RECORDS                                                               \
-  RECORD(BvhNode, bvh_node, PPM_FIELDS_BVH_NODE)                                      \
+#define PPM_ALL_RECORDS \
+  RECORD(BvhNode, bvh_node, PPM_FIELDS_BVH_NODE) \
   RECORD(TrianglePositions, triangle_positions_record, PPM_FIELDS_TRIANGLE_POSITIONS) \
-  RECORD(TriangleShading, triangle_shading_record, PPM_FIELDS_TRIANGLE_SHADING)       \
-  RECORD(MaterialRecord, material_record, PPM_FIELDS_MATERIAL_RECORD)                 \
-  RECORD(TextureRecord, texture_record, PPM_FIELDS_TEXTURE_RECORD)                    \
-  RECORD(LightRecord, light_record, PPM_FIELDS_LIGHT_RECORD)                          \
-  RECORD(SceneConstants, scene_constants, PPM_FIELDS_SCENE_CONSTANTS)                 \
-  RECORD(PhotonPath, photon_path, PPM_FIELDS_PHOTON_PATH)                             \
-  RECORD(PhotonPush, photon_push, PPM_FIELDS_PHOTON_PUSH)                             \
-  RECORD(GridConstants, grid_constants, PPM_FIELDS_GRID_CONSTANTS)                    \
-  RECORD(GridPush, grid_push, PPM_FIELDS_GRID_PUSH)                                   \
-  RECORD(ScanPush, scan_push, PPM_FIELDS_SCAN_PUSH)                                   \
-  RECORD(EyePath, eye_path, PPM_FIELDS_EYE_PATH)                                      \
-  RECORD(EyePush, eye_push, PPM_FIELDS_EYE_PUSH)                                      \
-  RECORD(HitPoint, hit_point, PPM_FIELDS_HIT_POINT)                                   \
-  RECORD(StagedKey, staged_key, PPM_FIELDS_STAGED_KEY)                                \
-  RECORD(EyeOrderPush, eye_order_push, PPM_FIELDS_EYE_ORDER_PUSH)                     \
-  RECORD(GatherSum, gather_sum, PPM_FIELDS_GATHER_SUM)                                \
-  RECORD(GatherCursor, gather_cursor, PPM_FIELDS_GATHER_CURSOR)                       \
-  RECORD(GatherPush, gather_push, PPM_FIELDS_GATHER_PUSH)                             \
-  RECORD(UpdatePush, update_push, PPM_FIELDS_UPDATE_PUSH)                             \
-  RECORD(ResolvePush, resolve_push, PPM_FIELDS_RESOLVE_PUSH)                          \
-  RECORD(PilotPush, pilot_push, PPM_FIELDS_PILOT_PUSH)                                \
+  RECORD(TriangleShading, triangle_shading_record, PPM_FIELDS_TRIANGLE_SHADING) \
+  RECORD(MaterialRecord, material_record, PPM_FIELDS_MATERIAL_RECORD) \
+  RECORD(TextureRecord, texture_record, PPM_FIELDS_TEXTURE_RECORD) \
+  RECORD(LightRecord, light_record, PPM_FIELDS_LIGHT_RECORD) \
+  RECORD(SceneConstants, scene_constants, PPM_FIELDS_SCENE_CONSTANTS) \
+  RECORD(PhotonPath, photon_path, PPM_FIELDS_PHOTON_PATH) \
+  RECORD(PhotonPush, photon_push, PPM_FIELDS_PHOTON_PUSH) \
+  RECORD(GridConstants, grid_constants, PPM_FIELDS_GRID_CONSTANTS) \
+  RECORD(GridPush, grid_push, PPM_FIELDS_GRID_PUSH) \
+  RECORD(ScanPush, scan_push, PPM_FIELDS_SCAN_PUSH) \
+  RECORD(EyePath, eye_path, PPM_FIELDS_EYE_PATH) \
+  RECORD(EyePush, eye_push, PPM_FIELDS_EYE_PUSH) \
+  RECORD(HitPoint, hit_point, PPM_FIELDS_HIT_POINT) \
+  RECORD(StagedKey, staged_key, PPM_FIELDS_STAGED_KEY) \
+  RECORD(EyeOrderPush, eye_order_push, PPM_FIELDS_EYE_ORDER_PUSH) \
+  RECORD(GatherSum, gather_sum, PPM_FIELDS_GATHER_SUM) \
+  RECORD(GatherCursor, gather_cursor, PPM_FIELDS_GATHER_CURSOR) \
+  RECORD(GatherPush, gather_push, PPM_FIELDS_GATHER_PUSH) \
+  RECORD(UpdatePush, update_push, PPM_FIELDS_UPDATE_PUSH) \
+  RECORD(ResolvePush, resolve_push, PPM_FIELDS_RESOLVE_PUSH) \
+  RECORD(PilotPush, pilot_push, PPM_FIELDS_PILOT_PUSH) \
   RECORD(RadiusPush, radius_push, PPM_FIELDS_RADIUS_PUSH)
+
+// clang-format on
 
 #endif  // PPM_TESTS_LAYOUT_FIELDS_H
