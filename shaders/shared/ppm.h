@@ -35,7 +35,11 @@ PPM_FN Estimate update_estimate(Estimate estimate, float alpha, uint new_photons
   PPM_PRECISE float radius2 = estimate.radius2 * shrink_ratio(alpha, estimate.count, new_photons);
   estimate.lambda = lambda;
   estimate.radius2 = radius2;
-  estimate.count += new_photons;
+  // Four billion photons are as good as any number: the count stays there, and the ratio at
+  // nearly 1.
+  uint carry;
+  uint count = uaddCarry(estimate.count, new_photons, carry);
+  estimate.count = carry == 0u ? count : 0xffffffffu;
   return estimate;
 }
 

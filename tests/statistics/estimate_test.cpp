@@ -153,6 +153,16 @@ TEST(UpdateEstimate, GrowsInCountAndShrinksInRadius) {
   }
 }
 
+// A count that began again from 0 would make the next radius jump by alpha.
+TEST(UpdateEstimate, CountStaysAtItsLargest) {
+  const Estimate almost{vec3(1.0f), 1.0f, 0xfffffff0u};
+  const Estimate full = update_estimate(almost, 0.7f, 100u, vec3(0.0f));
+  EXPECT_EQ(full.count, 0xffffffffu);
+  const Estimate after = update_estimate(full, 0.7f, 100u, vec3(0.0f));
+  EXPECT_EQ(after.count, 0xffffffffu);
+  EXPECT_GT(after.radius2, 0.999f);
+}
+
 // With M photons in every pass the ratio of pass i is alpha (i + 1) / (alpha i + 1), whatever M;
 // the product is a quotient of gamma functions, which falls as i^(alpha - 1).
 TEST(UpdateEstimate, ShrinksByTheClosedFormUnderConstantLight) {
