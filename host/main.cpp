@@ -1,16 +1,19 @@
 // ppm-vk: progressive photon mapping on Vulkan devices.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "devices_command.hpp"
+#include "failure.hpp"
 #include "options.hpp"
 #include "render_command.hpp"
 
 namespace {
 
-int run(const ppm::cli::Options& options) {
+int act(const ppm::cli::Options& options) {
   switch (options.verb) {
     case ppm::cli::Verb::render:
       return ppm::cli::render_command(options.render);
@@ -20,6 +23,16 @@ int run(const ppm::cli::Options& options) {
       return options.exit_code;
   }
   return options.exit_code;
+}
+
+/// What was printed may still wait in a buffer, and the disk behind it be full.
+int run(const ppm::cli::Options& options) {
+  const int exit_code = act(options);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw ppm::Failure("standard output", "cannot write", std::generic_category().message(errno),
+                       "send it elsewhere");
+  }
+  return exit_code;
 }
 
 }  // namespace
