@@ -161,6 +161,10 @@ std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream,
     }
     if (result == PhotonTracer::Result::interrupted) return std::nullopt;
     if (result == PhotonTracer::Result::overflow) {
+      if (chunk == 1) {
+        throw Failure("", "--photon-capacity " + std::to_string(settings_.photon_capacity),
+                      "the photons of one path do not fit", "raise --photon-capacity");
+      }
       chunk_paths_ = (chunk + 1) / 2;
       continue;
     }

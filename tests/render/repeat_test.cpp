@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "failure.hpp"
 #include "small_room.hpp"
 
 namespace ppm::test {
@@ -83,6 +84,13 @@ TEST_F(Repeat, WhateverThePhotonCapacity) {
     EXPECT_TRUE(same_bits(one.picture, render(tight).picture))
         << "radius mode " << static_cast<int>(mode);
   }
+}
+
+// No smaller part of a pass is left to try.
+TEST_F(Repeat, AsPhotonsOfOnePathThatDoNotFitAreAFailure) {
+  render::Settings tiny = settings_;
+  tiny.photon_capacity = 1;
+  EXPECT_THROW(render(tiny), Failure);
 }
 
 TEST_F(Repeat, WhateverTheThreads) {
