@@ -342,6 +342,15 @@ Options printed(const std::string& text) {
   return {};
 }
 
+/// CLI11 counts values where one is missing or an option is there twice; this says which.
+std::string explain(const CLI::ArgumentMismatch& error, const CLI::App& app) {
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find(':'));
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  if (!option) return text;
+  return name + (option->count() > 1 ? ": is given more than once" : ": a value is missing");
+}
+
 Options parse_render(std::vector<std::string> arguments) {
   Options options;
   CLI::App app("Renders a glTF scene to a picture.", "ppm-vk render");
@@ -352,6 +361,8 @@ Options parse_render(std::vector<std::string> arguments) {
     check_together(app, options.render);
   } catch (const CLI::CallForHelp&) {
     return printed(app.help());
+  } catch (const CLI::ArgumentMismatch& error) {
+    return usage_error(explain(error, app), "see ppm-vk help render");
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), "see ppm-vk help render");
   }

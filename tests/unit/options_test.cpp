@@ -223,8 +223,10 @@ TEST(Options, BrokenUsageIsRefused) {
   expect_refused({"render", "s.glb", "-o", "o.exr", "--bogus"}, "--bogus");
   expect_refused({"render", "s.glb", "-o", "o.exr", "--pass", "3"}, "--pass");
   expect_refused({"render", "s.glb", "-o", "o.exr", "-x"}, "-x");
-  expect_refused({"render", "s.glb", "-o", "o.exr", "--width"}, "--width");
-  expect_refused({"render", "s.glb", "-o", "o.exr", "--width", "1", "--width", "2"}, "--width");
+  expect_refused({"render", "s.glb", "-o", "o.exr", "--width"}, "--width: a value is missing");
+  expect_refused({"render", "s.glb", "-o"}, "--output: a value is missing");
+  expect_refused({"render", "s.glb", "-o", "o.exr", "--width", "1", "--width", "2"},
+                 "--width: is given more than once");
   expect_refused({"render", "s.glb", "-o", "o.exr", "--quiet", "--verbose"}, "--quiet");
   expect_refused(
       {"render", "s.glb", "-o", "o.exr", "--camera-position", "1,2,3", "--camera-target", "1,2,3"},
