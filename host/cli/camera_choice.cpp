@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kDefaultAspect = 4.0 / 3.0;
 constexpr std::uint32_t kLargestSide = 32768;
+constexpr double kFarthest = 1e18;  // in the working frame: single precision can square it
 
 std::string list_cameras(const scene::Scene& scene) {
   std::string list;
@@ -65,24 +66,40 @@ void orient(scene::Camera& camera, const glm::dvec3& forward, const glm::dvec3& 
   camera.right = glm::cross(camera.forward, camera.up);
 }
 
+glm::dvec3 working_point(const glm::dvec3& world, const char* option, const scene::Scene& scene) {
+  const glm::dvec3 point = scene.frame.to_working(world);
+  if (!(glm::length(point) <= kFarthest)) {
+    throw Failure(scene.file, option, "it is out of all proportion to the scene",
+                  "choose a point closer to it");
+  }
+  return point;
+}
+
+/// Of any length but zero, even where its square overflows or vanishes.
+glm::dvec3 unit(const glm::dvec3& v) {
+  return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+}
+
 void replace_view(scene::Camera& camera, const RenderOptions& options, const scene::Scene& scene) {
-  if (options.camera_position) camera.position = scene.frame.to_working(*options.camera_position);
+  if (options.camera_position) {
+    camera.position = working_point(*options.camera_position, "--camera-position", scene);
+  }
   if (options.camera_fov) camera.yfov = *options.camera_fov * std::numbers::pi / 180.0;
   if (!options.camera_target && !options.camera_up) return;
 
   glm::dvec3 forward = camera.forward;
   glm::dvec3 up = camera.up;
   if (options.camera_target) {
-    const glm::dvec3 target = scene.frame.to_working(*options.camera_target);
+    const glm::dvec3 target = working_point(*options.camera_target, "--camera-target", scene);
     const glm::dvec3 way = target - camera.position;
     if (is_negligible(way, camera.position) && is_negligible(way, glm::dvec3(1.0))) {
       throw Failure(scene.file, "--camera-target", "it is where the camera stands",
                     "choose another --camera-target or --camera-position");
     }
-    forward = glm::normalize(way);
+    forward = unit(way);
     up = {0.0, 1.0, 0.0};
   }
-  if (options.camera_up) up = glm::normalize(*options.camera_up);
+  if (options.camera_up) up = unit(*options.camera_up);
   orient(camera, forward, up, options.camera_up.has_value(), scene.file);
 }
 

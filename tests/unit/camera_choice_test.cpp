@@ -113,6 +113,24 @@ TEST(CameraChoice, StraightDownNeedsNoUp) {
   EXPECT_THROW(choose(options), Failure);
 }
 
+TEST(CameraChoice, UpMayHaveAnyLength) {
+  for (const double length : {1e-320, 1e-200, 1e200, 1e308}) {
+    RenderOptions options;
+    options.camera_up = glm::dvec3(length, 0.0, 0.0);
+    expect_near(choose(options).up, {1.0, 0.0, 0.0});
+  }
+}
+
+TEST(CameraChoice, PointsThatSinglePrecisionCannotReachAreRefused) {
+  for (const double far : {1e20, 1e160, 1e308}) {
+    RenderOptions position, target;
+    position.camera_position = glm::dvec3(0.0, far, 0.0);
+    EXPECT_THROW(choose(position), Failure) << far;
+    target.camera_target = glm::dvec3(0.0, -far, far);
+    EXPECT_THROW(choose(target), Failure) << far;
+  }
+}
+
 TEST(CameraChoice, TargetAtTheCameraIsRefused) {
   RenderOptions options;
   options.camera_target = {10.0, 20.0, 30.0};  // where the first camera stands
