@@ -55,15 +55,20 @@ bool is_finite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Leaves room for the light's power and for sums over many lights in single precision.
+constexpr double kLargestIntensity = 1e30;
+
 void read_intensity(const Element& element, const Frame& frame, PunctualLight& light) {
   glm::vec3 color(1.0f);
   element.factors("color", {glm::value_ptr(color), 3}, 0.0, 1.0);
   const double intensity = element.number_or("intensity", 1.0);
   if (intensity < 0.0) element.warn("light intensity", "a negative intensity is taken as 0");
   const double scale = light.kind == PunctualKind::directional ? 1.0 : frame.scale * frame.scale;
-  light.intensity = glm::vec3(glm::dvec3(color) * std::max(intensity, 0.0) * scale);
-  if (!is_finite(light.intensity))
+  const double scaled = std::max(intensity, 0.0) * scale;
+  if (!(scaled <= kLargestIntensity)) {
     element.fail("its intensity overflows", "use a smaller intensity");
+  }
+  light.intensity = glm::vec3(glm::dvec3(color) * scaled);
 }
 
 }  // namespace

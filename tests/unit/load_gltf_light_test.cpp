@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "failure.hpp"
 #include "gltf_document.hpp"
 #include "load_gltf.hpp"
 
@@ -87,6 +88,24 @@ TEST(LoadGltf, DirectionalLights) {
   EXPECT_EQ(scene.punctual_lights[0].kind, PunctualKind::directional);
   EXPECT_EQ(scene.punctual_lights[0].direction, glm::vec3(0, 0, 1));
   EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(6.0f));  // not times scale^2
+}
+
+// Powers and their sums must stay within single precision: a point light's is 4 pi times this.
+TEST(LoadGltf, LightsBeyondSinglePrecisionAreRefused) {
+  for (const char* type : {"point", "directional"}) {
+    for (const double intensity : {1e29, 1e31, 3e38, 1e300}) {
+      GltfDocument document;
+      document.triangle();
+      document.append(
+          "nodes",
+          {{"extensions", with_light(document, {{"type", type}, {"intensity", intensity}})}});
+      if (intensity < 1e30) {
+        EXPECT_EQ(load(document).punctual_lights.size(), 1u) << type;
+      } else {
+        EXPECT_THROW(load(document), Failure) << type << " " << intensity;
+      }
+    }
+  }
 }
 
 TEST(LoadGltf, PerspectiveCameras) {
