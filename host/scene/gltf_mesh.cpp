@@ -180,6 +180,13 @@ bool has_area(const Triangle& triangle) {
   return glm::dot(n, n) >= FLT_MIN && glm::dot(exact, exact) > 0.0;
 }
 
+/// Whether it is a triangle rather than a line, at any size.
+bool is_well_shaped(const std::array<glm::dvec3, 3>& corners) {
+  const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
+  const double longest = std::max(glm::length(a), glm::length(b));
+  return longest > 0.0 && glm::length(glm::cross(a / longest, b / longest)) > 1e-6;
+}
+
 glm::vec3 geometric_normal(const Triangle& triangle) {
   const auto& c = triangle.corners;
   return glm::vec3(
@@ -248,21 +255,21 @@ void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world) {
   }
 }
 
-std::uint64_t bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
-                   std::vector<Triangle>& triangles) {
+void bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
+          std::vector<Triangle>& triangles, LeftOut& left_out) {
   const NormalTransform normals(to_world);
-  std::uint64_t left_out = 0;
   for (std::uint64_t t = 0; t < primitive.triangle_count; ++t) {
     Indices vertices = vertices_of(primitive, t);
     if (normals.mirrors) std::swap(vertices[1], vertices[2]);
     Triangle triangle{};
     triangle.material = primitive.material;
+    std::array<glm::dvec3, 3> world;
     for (std::size_t i = 0; i < 3; ++i) {
-      const glm::dvec3 world = transformed(to_world, primitive.position.vec3(vertices[i]));
-      triangle.corners[i].position = glm::vec3(frame.to_working(world));
+      world[i] = transformed(to_world, primitive.position.vec3(vertices[i]));
+      triangle.corners[i].position = glm::vec3(frame.to_working(world[i]));
     }
     if (!has_area(triangle)) {
-      ++left_out;
+      ++(is_well_shaped(world) ? left_out.too_small : left_out.without_area);
       continue;
     }
     const glm::vec3 geometric = geometric_normal(triangle);
@@ -274,7 +281,6 @@ std::uint64_t bake(const Primitive& primitive, const glm::dmat4& to_world, const
     }
     triangles.push_back(triangle);
   }
-  return left_out;
 }
 
 }  // namespace ppm::scene::gltf

@@ -51,9 +51,15 @@ std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
 /// indices out of range and positions that are not finite; must succeed before `bake`.
 void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world);
 
-/// Appends the primitive's triangles to `triangles`. Returns how many were left out because they
-/// have no area in single precision.
-std::uint64_t bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
-                   std::vector<Triangle>& triangles);
+/// Triangles that cannot be rendered.
+struct LeftOut {
+  std::uint64_t without_area = 0;
+  std::uint64_t too_small = 0;  ///< well-shaped, but without area in single precision
+};
+
+/// Appends the primitive's triangles to `triangles`. Counts in `left_out` those that have no area
+/// in single precision.
+void bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
+          std::vector<Triangle>& triangles, LeftOut& left_out);
 
 }  // namespace ppm::scene::gltf

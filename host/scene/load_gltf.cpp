@@ -97,18 +97,22 @@ Frame frame_of(const std::vector<Instance>& instances, const Element& root) {
 }
 
 void bake_triangles(const std::vector<Instance>& instances, const Element& root, Scene& scene,
-                    const Log& log) {
+                    Log& log) {
   scene.triangles.reserve(checked_triangle_count(instances, root));
   scene.frame = frame_of(instances, root);
-  std::uint64_t left_out = 0;
+  LeftOut left_out;
   for (const Instance& instance : instances) {
     for (const Primitive& primitive : *instance.primitives) {
-      left_out += bake(primitive, instance.to_world, scene.frame, scene.triangles);
+      bake(primitive, instance.to_world, scene.frame, scene.triangles, left_out);
     }
   }
-  if (left_out > 0) {
-    log.note(scene.file + ": " + std::to_string(left_out) +
+  if (left_out.without_area > 0) {
+    log.note(scene.file + ": " + std::to_string(left_out.without_area) +
              " triangles without area were left out");
+  }
+  if (left_out.too_small > 0) {
+    log.warn(scene.file + ": " + std::to_string(left_out.too_small) +
+             " triangles are too small beside the scene's extent and were left out");
   }
   if (scene.triangles.empty()) {
     root.fail("no triangle of the scene has any area", "export some geometry");

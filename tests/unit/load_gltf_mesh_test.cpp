@@ -70,6 +70,18 @@ TEST(LoadGltf, DropsTrianglesWithoutArea) {
   expect_corners(scene, 1, {{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}});
 }
 
+// Their squared area would be below the smallest float; in the file they are sound, unlike those
+// without area, of which nobody needs to hear.
+TEST(LoadGltf, WarnsOfTrianglesTooSmallBesideTheScene) {
+  GltfDocument document;
+  document.triangle();
+  document.append("nodes", {{"mesh", 0}, {"scale", {1e10, 1e10, 1e10}}});
+  document.append("nodes", {{"mesh", 0}, {"scale", {1, 0, 1}}});
+  Log log(Verbosity::quiet);
+  EXPECT_EQ(load(document, log).triangles.size(), 1u);
+  EXPECT_EQ(warnings_with(log, "1 triangles are too small"), 1u);
+}
+
 const std::vector<float> kSquare{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 const std::array<glm::dvec3, 3> kLower{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
 const std::array<glm::dvec3, 3> kUpper{{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
