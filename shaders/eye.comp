@@ -22,6 +22,7 @@ layout(binding = PPM_BIND_STAGED_KEYS, scalar) writeonly buffer StagedKeys { Sta
 
 bool hit_filter(uint triangle, vec2 barycentric) { return true; }
 
+const float kLeastFootprint = 1e-15;
 const uint kMaxSplits = 32u;  // bits of EyePath::code; later splits take one branch at random
 
 // Random blocks of an eye path: 0 places it on the film, 1 + n is its n-th specular event.
@@ -83,7 +84,8 @@ void stage_hit_point(EyePath path, Surface surface) {
   hit.weight = path.weight / float(push.samples);
   pack_bsdf(surface.bsdf, hit.bsdf, hit.bsdf_extra);
   float cosine = dot(path.direction, surface.geometric_normal);
-  stage(path, hit, footprint_radius(pixel_area(scene), path.distance, cosine));
+  // Never 0, which would mark it as light seen: pixels may be smaller than single precision can square.
+  stage(path, hit, max(footprint_radius(pixel_area(scene), path.distance, cosine), kLeastFootprint));
 }
 
 // Passes a branch on. Branches that weigh little survive in proportion to their weight (Russian roulette).

@@ -32,5 +32,6 @@ void main() {
       sum += weight * lambda * push.scale;
     }
   }
-  pixels[pixel] = vec4(sum, 1.0);
+  // Brighter than a float can say: as bright as one can.
+  pixels[pixel] = vec4(min(sum, vec3(3.4028234e38)), 1.0);
 }
