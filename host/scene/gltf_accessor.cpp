@@ -1,9 +1,7 @@
 #include "gltf_accessor.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <utility>
 
 namespace ppm::scene::gltf {
 namespace {
@@ -26,40 +24,39 @@ std::uint64_t size_of(ComponentType type) {
   return 0;
 }
 
-ComponentType component_type_of(const Element& owner) {
-  const Element element = owner.require("componentType");
-  switch (element.whole()) {
-    case 5120:
+ComponentType component_type_of(const Place& owner, int number) {
+  switch (number) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
       return ComponentType::i8;
-    case 5121:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return ComponentType::u8;
-    case 5122:
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
       return ComponentType::i16;
-    case 5123:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return ComponentType::u16;
-    case 5125:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       return ComponentType::u32;
-    case 5126:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return ComponentType::f32;
     default:
-      element.fail("is not a component type of glTF 2.0", "use 5120 to 5126 but 5124");
+      owner.member("componentType")
+          .fail("is not a component type of glTF 2.0", "use 5120 to 5126 but 5124");
   }
 }
 
-/// Components per element; 0 for matrices, which nothing here reads.
-int components_of(const Element& accessor) {
-  const Element type = accessor.require("type");
-  constexpr std::array<std::pair<const char*, int>, 7> kTypes{{{"SCALAR", 1},
-                                                               {"VEC2", 2},
-                                                               {"VEC3", 3},
-                                                               {"VEC4", 4},
-                                                               {"MAT2", 0},
-                                                               {"MAT3", 0},
-                                                               {"MAT4", 0}}};
-  for (const auto& [name, components] : kTypes) {
-    if (type.text() == name) return components;
+int components_of(const Element<tinygltf::Accessor>& accessor) {
+  switch (accessor->type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return 1;
+    case TINYGLTF_TYPE_VEC2:
+      return 2;
+    case TINYGLTF_TYPE_VEC3:
+      return 3;
+    case TINYGLTF_TYPE_VEC4:
+      return 4;
+    default:
+      accessor.fail("holds matrices", "use SCALAR, VEC2, VEC3 or VEC4 here");
   }
-  type.fail("is not an accessor type", "use SCALAR, VEC2, VEC3 or VEC4");
 }
 
 template <typename T>
@@ -104,20 +101,30 @@ double normalized_value(double value, ComponentType type) {
   }
 }
 
-/// `count` items of `size` bytes, `stride` apart, from `owner`'s bufferView and byteOffset.
-Items items_of(const Element& owner, Buffers& buffers, ComponentType type, std::uint64_t count,
-               std::uint64_t size, bool may_stride) {
-  const Element view = owner.follow("bufferView", "bufferViews");
-  const ByteView bytes = buffers.view(view);
+/// Where the items of an accessor, or of a part of a sparse one, begin.
+struct Start {
+  Place owner;
+  int buffer_view;
+  std::uint64_t byte_offset;
+};
+
+/// `count` items of `size` bytes from `start`, as far apart as the bufferView says where it may.
+Items items_of(const Start& start, ComponentType type, std::uint64_t count, std::uint64_t size,
+               bool may_stride) {
+  const Place& owner = start.owner;
+  const auto view = follow(owner.member("bufferView"), start.buffer_view, owner.model().bufferViews,
+                           "bufferViews");
+  const ByteView bytes = bytes_of(view);
   std::uint64_t stride = size;
-  if (const std::optional<Element> given = view.find("byteStride"); given && may_stride) {
-    stride = given->whole();
-    if (stride < size || stride > 252) {
-      given->fail("is no stride for elements of " + std::to_string(size) + " bytes",
-                  "use a multiple of 4 in [4, 252] that holds an element");
+  if (may_stride && view->byteStride != 0) {
+    stride = view->byteStride;
+    if (stride < size) {
+      view.member("byteStride")
+          .fail("is no stride for elements of " + std::to_string(size) + " bytes",
+                "use a multiple of 4 in [4, 252] that holds an element");
     }
   }
-  const std::uint64_t offset = owner.whole_or("byteOffset", 0);
+  const std::uint64_t offset = owner.member("byteOffset").size(start.byte_offset);
   const std::uint64_t needed = count == 0 ? 0 : (count - 1) * stride + size;
   if (offset > bytes.size() || needed > bytes.size() - offset) {
     owner.fail("needs " + std::to_string(offset + needed) + " bytes of a bufferView of " +
@@ -129,45 +136,51 @@ Items items_of(const Element& owner, Buffers& buffers, ComponentType type, std::
 
 }  // namespace
 
-Accessor::Accessor(const Element& element, Buffers& buffers) : path_(element.path()) {
-  count_ = element.require("count").whole();
+Accessor::Accessor(const Element<tinygltf::Accessor>& element) : path_(element.path()) {
+  count_ = element.member("count").size(element->count);
   if (count_ == 0) element.fail("is empty", "remove it or give it elements");
   components_ = components_of(element);
-  if (components_ == 0) element.fail("holds matrices", "use SCALAR, VEC2, VEC3 or VEC4 here");
-  normalized_ = element.boolean_or("normalized", false);
-  read_base(element, buffers);
-  if (const std::optional<Element> sparse = element.find("sparse")) read_sparse(*sparse, buffers);
+  normalized_ = element->normalized;
+  read_base(element);
+  if (element->sparse.isSparse) read_sparse(element);
 }
 
-void Accessor::read_base(const Element& element, Buffers& buffers) {
-  base_.type = component_type_of(element);
+void Accessor::read_base(const Element<tinygltf::Accessor>& element) {
+  base_.type = component_type_of(element, element->componentType);
   const std::uint64_t size = size_of(base_.type) * static_cast<std::uint64_t>(components_);
-  if (element.find("bufferView")) {
-    base_ = items_of(element, buffers, base_.type, count_, size, true);
+  if (element->bufferView != -1) {
+    base_ = items_of({element, element->bufferView, element->byteOffset}, base_.type, count_, size,
+                     true);
   } else if (count_ > kMostUnbacked) {
     element.fail("claims " + std::to_string(count_) + " elements without a bufferView",
                  "give it a bufferView");
   }
 }
 
-void Accessor::read_sparse(const Element& sparse, Buffers& buffers) {
-  sparse_count_ = sparse.require("count").whole();
+void Accessor::read_sparse(const Element<tinygltf::Accessor>& element) {
+  const auto& [count, is_sparse, indices, values] = element->sparse;
+  const Place sparse = element.member("sparse");
+  // What is negative becomes huge here, and is refused as such.
+  sparse_count_ = static_cast<std::uint64_t>(count);
   if (sparse_count_ > count_)
     sparse.fail("substitutes more elements than there are", "correct count");
   const std::uint64_t size = size_of(base_.type) * static_cast<std::uint64_t>(components_);
-  const Element indices = sparse.require("indices");
-  const ComponentType type = component_type_of(indices);
+  const Place place = sparse.member("indices");
+  const ComponentType type = component_type_of(place, indices.componentType);
   if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32) {
-    indices.fail("are not unsigned integers", "use componentType 5121, 5123 or 5125");
+    place.fail("are not unsigned integers", "use componentType 5121, 5123 or 5125");
   }
-  sparse_indices_ = items_of(indices, buffers, type, sparse_count_, size_of(type), false);
-  sparse_values_ =
-      items_of(sparse.require("values"), buffers, base_.type, sparse_count_, size, false);
+  sparse_indices_ =
+      items_of({place, indices.bufferView, static_cast<std::uint64_t>(indices.byteOffset)}, type,
+               sparse_count_, size_of(type), false);
+  sparse_values_ = items_of(
+      {sparse.member("values"), values.bufferView, static_cast<std::uint64_t>(values.byteOffset)},
+      base_.type, sparse_count_, size, false);
   double previous = -1.0;
   for (std::uint64_t i = 0; i < sparse_count_; ++i) {
     const double index = load_component(sparse_indices_, i, 0);
     if (index <= previous || index >= static_cast<double>(count_)) {
-      indices.fail("do not increase strictly below the accessor's count", "sort them");
+      place.fail("do not increase strictly below the accessor's count", "sort them");
     }
     previous = index;
   }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "gltf_container.hpp"
+#include "gltf_document.hpp"
 
 namespace ppm::scene::gltf {
 
@@ -31,7 +31,7 @@ struct Items {
 class Accessor {
  public:
   /// Throws Failure where it reaches outside its bufferView or is malformed.
-  Accessor(const Element& element, Buffers& buffers);
+  explicit Accessor(const Element<tinygltf::Accessor>& element);
 
   const std::string& path() const { return path_; }
   std::uint64_t count() const { return count_; }
@@ -46,8 +46,8 @@ class Accessor {
   std::uint64_t whole(std::uint64_t i) const { return static_cast<std::uint64_t>(real(i, 0)); }
 
  private:
-  void read_base(const Element& element, Buffers& buffers);
-  void read_sparse(const Element& sparse, Buffers& buffers);
+  void read_base(const Element<tinygltf::Accessor>& element);
+  void read_sparse(const Element<tinygltf::Accessor>& element);
 
   std::string path_;
   std::uint64_t count_ = 0;

@@ -11,25 +11,27 @@ constexpr double kLargestAspect = 1e4;
 }  // namespace
 
 std::optional<Camera> read_camera(const Placement& placement, const Frame& frame) {
-  const Element& node = placement.node;
-  if (!node.find("camera")) return std::nullopt;
-  const Element element = node.follow("camera", "cameras");
-  if (element.require("type").text() != "perspective") {
+  const Element<tinygltf::Node>& node = placement.node;
+  if (node->camera == -1) return std::nullopt;
+  const auto element = follow(node.member("camera"), node->camera, node.model().cameras, "cameras");
+  if (element->type != "perspective") {
     element.warn("camera type", "only perspective cameras are read");
     return std::nullopt;
   }
-  const Element perspective = element.require("perspective");
+  const Place perspective = element.member("perspective");
   Camera camera;
-  camera.name = node.name().empty() ? element.name() : node.name();
-  camera.yfov = perspective.require("yfov").number();
+  camera.name = node->name.empty() ? element.name() : node.name();
+  camera.yfov = element->perspective.yfov;
   if (!(camera.yfov > 0.0 && camera.yfov < std::numbers::pi)) {
-    perspective.require("yfov").fail("is not between 0 and pi", "write the full angle in radians");
+    perspective.member("yfov").fail("is not between 0 and pi", "write the full angle in radians");
   }
-  if (const auto aspect = perspective.find("aspectRatio")) {
-    if (!(aspect->number() >= 1.0 / kLargestAspect && aspect->number() <= kLargestAspect)) {
-      aspect->fail("is not the aspect of any picture", "write width / height");
+  const double aspect = element->perspective.aspectRatio;
+  if (aspect != 0.0) {  // tinygltf's sign of absence
+    if (!(aspect >= 1.0 / kLargestAspect && aspect <= kLargestAspect)) {
+      perspective.member("aspectRatio")
+          .fail("is not the aspect of any picture", "write width / height");
     }
-    camera.aspect = aspect->number();
+    camera.aspect = aspect;
   }
   const auto forward = unit(-glm::dvec3(placement.to_world[2]));
   const auto up = unit(glm::dvec3(placement.to_world[1]));

@@ -1,41 +1,24 @@
 #include "gltf_image.hpp"
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <memory>
-
-#include "gltf_jpeg.hpp"
-
-namespace {
-
-// Compressed data may unfold to any size, whatever dimensions the image states; what the decoder
-// asks for in one piece is bounded by this. A thread's own, as two may decode at once.
-thread_local std::size_t allocation_limit = 0;
-
-void* limited_realloc(void* memory, std::size_t size) {
-  return size > allocation_limit ? nullptr : std::realloc(memory, size);
-}
-
-}  // namespace
-
-#define STBI_MALLOC(size) limited_realloc(nullptr, size)
-#define STBI_REALLOC(memory, size) limited_realloc(memory, size)
-#define STBI_FREE(memory) std::free(memory)
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STBI_NO_LINEAR
-#include <stb/stb_image.h>
+#include <string_view>
 
 namespace ppm::scene::gltf {
 namespace {
 
 constexpr std::uint64_t kLargestSide = 16384;
-constexpr int kChannels = 4;
+// Deflate makes 1032 bytes of one at most, and indices of one bit become up to 32.
+constexpr std::uint64_t kLargestExpansion = 1032 * 32;
+constexpr std::ptrdiff_t kMostScans =
+    200;  // a progressive JPEG of a few KB can ask for hours of them
 constexpr const char* kRemedy = "convert it to PNG or JPEG, or export it again";
 
 /// IEC 61966-2-1.
@@ -56,86 +39,133 @@ struct DecodingTable {
   }
 };
 
-template <typename Code>
-std::vector<glm::u16vec4> decode_texels(const Code* codes, std::size_t texel_count) {
-  const DecodingTable table(std::size_t{std::numeric_limits<Code>::max()} + 1);
-  std::vector<glm::u16vec4> texels(texel_count);
-  for (std::size_t i = 0; i < texel_count; ++i) {
-    const Code* texel = codes + i * kChannels;
-    texels[i] = {table.color[texel[0]], table.color[texel[1]], table.color[texel[2]],
-                 table.alpha[texel[3]]};
-  }
-  return texels;
+/// OpenImageIO's name of the format that the first bytes tell, or nothing.
+const char* format_of(ByteView bytes) {
+  constexpr std::array<std::uint8_t, 8> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::array<std::uint8_t, 3> kJpeg{0xff, 0xd8, 0xff};
+  const auto begins_with = [&](ByteView magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+  };
+  return begins_with(kPng) ? "png" : begins_with(kJpeg) ? "jpeg" : nullptr;
 }
 
-struct FreeStb {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
+/// How often the marker that begins a scan stands in a JPEG; in coded data it cannot.
+std::ptrdiff_t scan_count(ByteView bytes) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i) count += bytes[i - 1] == 0xff && bytes[i] == 0xda;
+  return count;
+}
+
+/// Whether the chunks of a PNG file are all there. Where libpng meets the end of a file early,
+/// OpenImageIO 2.4 jumps away from a string that it then leaks.
+bool is_whole_png(ByteView bytes) {
+  constexpr std::size_t kChunkBytes = 12;  // length, type and checksum around the data
+  bool has_data = false;
+  for (std::size_t at = 8; at + kChunkBytes <= bytes.size();) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | bytes[at + i];
+    if (length > bytes.size() - at - kChunkBytes) return false;
+    const std::string_view type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
+    if (type == "IEND") return has_data;
+    has_data = has_data || type == "IDAT";
+    at += kChunkBytes + length;
+  }
+  return false;
+}
+
+/// One encoded image that OpenImageIO has opened.
+class Decoder {
+ public:
+  Decoder(const Place& place, ByteView bytes) : place_(place), memory_(bytes.data(), bytes.size()) {
+    const char* format = format_of(bytes);
+    if (format == nullptr) place.fail("is no PNG or JPEG image", kRemedy);
+    if (format[0] == 'p' && !is_whole_png(bytes)) {
+      place.fail("is corrupt: its PNG file is cut short", kRemedy);
+    }
+    if (format[0] == 'j' && scan_count(bytes) > kMostScans) {
+      place.fail("has more than " + std::to_string(kMostScans) + " scans", kRemedy);
+    }
+    input_ = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input_ || !input_->set_ioproxy(&memory_) || !input_->open("image", spec_, wishes)) {
+      corrupt();
+    }
+  }
+  ~Decoder() { cause(); }  // OpenImageIO prints causes that nobody asked for
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  void check_size(std::uint64_t texel_budget) const {
+    const auto width = static_cast<std::uint64_t>(std::max(spec_.width, 0));
+    const auto height = static_cast<std::uint64_t>(std::max(spec_.height, 0));
+    const std::string size = std::to_string(width) + " x " + std::to_string(height);
+    if (width > kLargestSide || height > kLargestSide || width * height > texel_budget) {
+      place_.fail("its " + size + " texels are too many", "use smaller images");
+    }
+    if (width * height == 0 || spec_.nchannels < 1 || spec_.nchannels > 4 || spec_.depth != 1 ||
+        spec_.image_bytes(true) > kLargestExpansion * memory_.size()) {
+      place_.fail("is corrupt: it cannot hold " + size + " texels", kRemedy);
+    }
+  }
+
+  Image read() {
+    return spec_.format == OIIO::TypeDesc::UINT16 ? read_as<std::uint16_t>(OIIO::TypeDesc::UINT16)
+                                                  : read_as<std::uint8_t>(OIIO::TypeDesc::UINT8);
+  }
+
+ private:
+  std::string cause() { return input_ ? input_->geterror() : OIIO::geterror(); }
+  [[noreturn]] void corrupt() {
+    const std::string text = cause();
+    place_.fail("is corrupt: " + printable(text.substr(0, text.find('\n'))), kRemedy);
+  }
+
+  template <typename Code>
+  Image read_as(OIIO::TypeDesc type) {
+    const DecodingTable table(std::size_t{std::numeric_limits<Code>::max()} + 1);
+    const auto width = static_cast<std::size_t>(spec_.width);
+    const auto height = static_cast<std::size_t>(spec_.height);
+    const auto channels = static_cast<std::size_t>(spec_.nchannels);
+    const std::size_t colors = channels < 3 ? 1 : 3;
+    Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+    image.texels.reserve(width * height);
+    std::vector<Code> row(width * channels);
+    for (int y = 0; y < spec_.height; ++y) {
+      if (!input_->read_scanline(y, 0, type, row.data())) corrupt();
+      for (const Code* code = row.data(); code != row.data() + row.size(); code += channels) {
+        const auto color = [&](std::size_t i) { return table.color[code[colors == 1 ? 0 : i]]; };
+        const Code alpha = channels > colors ? code[colors] : std::numeric_limits<Code>::max();
+        image.texels.emplace_back(color(0), color(1), color(2), table.alpha[alpha]);
+      }
+    }
+    return image;
+  }
+
+  const Place& place_;
+  OIIO::Filesystem::IOMemReader memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
 };
 
-void check_size(const Element& image, std::uint64_t width, std::uint64_t height,
-                std::uint64_t texel_budget) {
-  if (width > kLargestSide || height > kLargestSide || width * height > texel_budget) {
-    image.fail(
-        "its " + std::to_string(width) + " x " + std::to_string(height) + " texels are too many",
-        "use smaller images");
+ByteView encoded_bytes(const Element<tinygltf::Image>& image) {
+  if (image->bufferView != -1) {
+    return bytes_of(follow(image.member("bufferView"), image->bufferView, image.model().bufferViews,
+                           "bufferViews"));
   }
-}
-
-Image decode_as_jpeg(const Element& image, ByteView bytes, JpegSize size) {
-  const std::optional<JpegTexels> texels = decode_jpeg(bytes);
-  if (!texels) image.fail("is corrupt", kRemedy);
-  if (texels->damaged) image.warn("damaged JPEG", "is damaged; what can be read of it is used");
-  return {size.width, size.height,
-          decode_texels(texels->rgba.data(), std::size_t{size.width} * size.height)};
-}
-
-Image decode_as_png(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
-  const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  allocation_limit = 65536;
-  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
-    image.fail("is no PNG or JPEG image, or broken or too large", kRemedy);
+  if (image->image.empty()) {
+    image.member("uri").fail("\"" + printable(image->uri) + "\" cannot be read",
+                             "put the file beside the glTF file or below");
   }
-  const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
-  check_size(image, columns, rows, texel_budget);
-  // Four channels of 16 bits, twice for the decoder's copies; and the compressed data, whose buffer
-  // grows by doubling.
-  const std::size_t count = std::size_t{columns} * rows;
-  allocation_limit = 16 * (count + columns + rows) + 4 * bytes.size() + 65536;
-  const auto as_image = [&](auto* codes) {
-    const std::unique_ptr<void, FreeStb> owner(codes);
-    if (codes == nullptr) {
-      image.fail(std::string("is corrupt: ") + stbi_failure_reason(), kRemedy);
-    }
-    return Image{columns, rows, decode_texels(codes, count)};
-  };
-  if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
-    return as_image(
-        stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
-  }
-  return as_image(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, kChannels));
-}
-
-Image decode(const Element& image, ByteView bytes, std::uint64_t texel_budget) {
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    image.fail("is larger than 2 GiB", "make it smaller");
-  }
-  if (const std::optional<JpegSize> size = jpeg_size(bytes)) {
-    check_size(image, size->width, size->height, texel_budget);
-    return decode_as_jpeg(image, bytes, *size);
-  }
-  return decode_as_png(image, bytes, texel_budget);
+  return image->image;
 }
 
 }  // namespace
 
-Image decode_image(const Element& image, Buffers& buffers, std::uint64_t texel_budget) {
-  if (const std::optional<Element> uri = image.find("uri")) {
-    const Bytes bytes = buffers.load_uri(*uri, std::numeric_limits<std::uint64_t>::max());
-    return decode(image, bytes, texel_budget);
-  }
-  if (!image.find("bufferView")) image.fail("has neither uri nor bufferView", "add the image");
-  return decode(image, buffers.view(image.follow("bufferView", "bufferViews")), texel_budget);
+Image decode_image(const Element<tinygltf::Image>& image, std::uint64_t texel_budget) {
+  Decoder decoder(image, encoded_bytes(image));
+  decoder.check_size(texel_budget);
+  return decoder.read();
 }
 
 }  // namespace ppm::scene::gltf

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "gltf_container.hpp"
+#include "gltf_document.hpp"
 
 namespace ppm::scene::gltf {
 
@@ -17,6 +17,6 @@ struct Image {
 
 /// Decodes an element of `images`; its colours are sRGB (IEC 61966-2-1), its alpha is linear.
 /// Throws Failure where the data is missing or corrupt, or has more than `texel_budget` texels.
-Image decode_image(const Element& image, Buffers& buffers, std::uint64_t texel_budget);
+Image decode_image(const Element<tinygltf::Image>& image, std::uint64_t texel_budget);
 
 }  // namespace ppm::scene::gltf

@@ -11,38 +11,30 @@ namespace {
 constexpr double kHalfPi = std::numbers::pi / 2.0;
 
 /// The light that `node` refers to.
-std::optional<Element> light_of(const Element& node) {
-  const auto reference = node.extension("KHR_lights_punctual");
-  if (!reference) return std::nullopt;
-  const Element root(node.origin(), *node.origin().root, "");
-  const auto extension = root.extension("KHR_lights_punctual");
-  const Element index = reference->require("light");
-  const std::uint64_t position = index.whole();
-  if (!extension || position >= extension->require("lights").size()) {
-    index.fail("refers to a light that the file does not have", "use an index of a light");
-  }
-  return extension->require("lights")[position];
+std::optional<Element<tinygltf::Light>> light_of(const Element<tinygltf::Node>& node) {
+  const auto extension = Extension::find(node, node->extensions, "KHR_lights_punctual");
+  if (!extension) return std::nullopt;
+  const Place reference = extension->member("light");
+  const double index = extension->number("light").value_or(-1.0);
+  if (index != std::floor(index)) reference.fail("is not a whole number", "write an index");
+  return follow(reference, static_cast<int>(std::clamp(index, -1.0, 2147483647.0)),
+                node.model().lights, "extensions.KHR_lights_punctual.lights");
 }
 
-PunctualKind kind_of(const Element& light) {
-  const Element type = light.require("type");
-  if (type.text() == "point") return PunctualKind::point;
-  if (type.text() == "spot") return PunctualKind::spot;
-  if (type.text() == "directional") return PunctualKind::directional;
-  type.fail("is not a kind of light", "use point, spot or directional");
+PunctualKind kind_of(const Element<tinygltf::Light>& light) {
+  if (light->type == "point") return PunctualKind::point;
+  if (light->type == "spot") return PunctualKind::spot;
+  if (light->type == "directional") return PunctualKind::directional;
+  light.member("type").fail("is not a kind of light", "use point, spot or directional");
 }
 
-void read_cone(const Element& element, PunctualLight& light) {
-  double inner = 0.0, outer = std::numbers::pi / 4.0;
-  if (const auto spot = element.find("spot")) {
-    inner = spot->number_or("innerConeAngle", inner);
-    outer = spot->number_or("outerConeAngle", outer);
-  }
-  const double given_inner = inner, given_outer = outer;
+void read_cone(const Element<tinygltf::Light>& element, PunctualLight& light) {
+  const double given_inner = element->spot.innerConeAngle;
+  const double given_outer = element->spot.outerConeAngle;
   constexpr double kNarrowest =
       2e-3;  // 1 - cos is 2e-6 then, which single precision still resolves
-  outer = std::clamp(outer, kNarrowest, kHalfPi);
-  inner = std::clamp(inner, 0.0, outer * (1.0 - 1e-4));
+  const double outer = std::clamp(given_outer, kNarrowest, kHalfPi);
+  const double inner = std::clamp(given_inner, 0.0, outer * (1.0 - 1e-4));
   if (inner != given_inner || outer != given_outer) {
     element.warn("cone angles",
                  "its cone angles are not 0 <= inner < outer <= pi/2 and were clamped");
@@ -58,10 +50,13 @@ bool is_finite(glm::vec3 v) {
 /// Leaves room for the light's power and for sums over many lights in single precision.
 constexpr double kLargestIntensity = 1e30;
 
-void read_intensity(const Element& element, const Frame& frame, PunctualLight& light) {
+void read_intensity(const Element<tinygltf::Light>& element, const Frame& frame,
+                    PunctualLight& light) {
   glm::vec3 color(1.0f);
-  element.factors("color", {glm::value_ptr(color), 3}, 0.0, 1.0);
-  const double intensity = element.number_or("intensity", 1.0);
+  if (!element->color.empty()) {
+    element.member("color").clamped(element->color, {glm::value_ptr(color), 3}, 0.0, 1.0);
+  }
+  const double intensity = element->intensity;
   if (intensity < 0.0) element.warn("light intensity", "a negative intensity is taken as 0");
   const double scale = light.kind == PunctualKind::directional ? 1.0 : frame.scale * frame.scale;
   const double scaled = std::max(intensity, 0.0) * scale;
@@ -74,13 +69,15 @@ void read_intensity(const Element& element, const Frame& frame, PunctualLight& l
 }  // namespace
 
 std::optional<PunctualLight> read_light(const Placement& placement, const Frame& frame) {
-  const std::optional<Element> element = light_of(placement.node);
+  const auto element = light_of(placement.node);
   if (!element) return std::nullopt;
   PunctualLight light;
-  light.name = placement.node.name().empty() ? element->name() : placement.node.name();
+  light.name = placement.node->name.empty() ? element->name() : placement.node.name();
   light.kind = kind_of(*element);
   read_intensity(*element, frame, light);
-  if (element->find("range")) element->warn("light range", "the range of lights is ignored");
+  if ((*element)->range != 0.0) {
+    element->warn("light range", "the range of lights is ignored");
+  }
   if (light.intensity == glm::vec3(0.0f)) return std::nullopt;
 
   light.position = glm::vec3(frame.to_working(glm::dvec3(placement.to_world[3])));

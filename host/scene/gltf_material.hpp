@@ -11,23 +11,21 @@ namespace ppm::scene::gltf {
 /// Reads materials, and the textures they use into `textures`.
 class MaterialReader {
  public:
-  /// `buffers` and `textures` must outlive this object.
-  MaterialReader(Buffers& buffers, std::vector<Texture>& textures)
-      : buffers_(buffers), textures_(textures) {}
+  /// `textures` must outlive this object.
+  explicit MaterialReader(std::vector<Texture>& textures) : textures_(textures) {}
 
   /// An element of `materials`. Lengths are multiplied by `length_scale`. Factors outside their
   /// legal range are clamped, with a warning; what the renderer lacks is warned of. Throws Failure
-  /// for malformed JSON and for images that cannot be read.
-  Material read(const Element& element, double length_scale);
+  /// for what is malformed and for images that cannot be read.
+  Material read(const Element<tinygltf::Material>& element, double length_scale);
 
  private:
-  void read_metallic_roughness(const Element& element, Material& material);
-  std::optional<std::uint32_t> read_texture(const Element& info);
-  Texture decode_texture(const Element& element);
+  void read_metallic_roughness(const Element<tinygltf::Material>& element, Material& material);
+  std::optional<std::uint32_t> read_texture(const Element<tinygltf::TextureInfo>& info);
+  Texture decode_texture(const Element<tinygltf::Texture>& element);
 
-  Buffers& buffers_;
   std::vector<Texture>& textures_;
-  std::map<std::uint32_t, std::uint32_t> textures_by_index_;  ///< glTF's index to ours
+  std::map<int, std::uint32_t> textures_by_index_;  ///< glTF's index to ours
   std::uint64_t texel_count_ = 0;
 };
 

@@ -16,97 +16,105 @@ bool is_finite(glm::dvec3 v) {
 }
 
 /// The mode of a primitive, or nothing for points and lines.
-std::optional<Topology> topology_of(const Element& primitive) {
-  switch (primitive.whole_or("mode", 4)) {
-    case 4:
+std::optional<Topology> topology_of(const Element<tinygltf::Primitive>& primitive) {
+  switch (primitive->mode) {
+    case TINYGLTF_MODE_TRIANGLES:
       return Topology::triangles;
-    case 5:
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
       return Topology::strip;
-    case 6:
+    case TINYGLTF_MODE_TRIANGLE_FAN:
       return Topology::fan;
-    case 0:
-    case 1:
-    case 2:
-    case 3:
+    case TINYGLTF_MODE_POINTS:
+    case TINYGLTF_MODE_LINE:
+    case TINYGLTF_MODE_LINE_LOOP:
+    case TINYGLTF_MODE_LINE_STRIP:
       primitive.warn("points and lines", "points and lines are not rendered");
       return std::nullopt;
     default:
-      primitive.require("mode").fail("is not a topology of glTF", "use 4, 5 or 6");
+      primitive.member("mode").fail("is not a topology of glTF", "use 4, 5 or 6");
   }
 }
 
-std::uint64_t triangle_count_of(const Element& primitive, Topology topology,
-                                std::uint64_t vertices) {
+std::uint64_t triangle_count_of(const Place& primitive, Topology topology, std::uint64_t vertices) {
   if (topology == Topology::triangles && vertices % 3 == 0) return vertices / 3;
   if (topology != Topology::triangles && vertices >= 3) return vertices - 2;
   primitive.fail(std::to_string(vertices) + " vertices do not make up whole triangles",
                  "correct the indices or the mode");
 }
 
-std::optional<Accessor> attribute(const Element& attributes, const char* name, Buffers& buffers,
+std::optional<Accessor> attribute(const Element<tinygltf::Primitive>& primitive, const char* name) {
+  const auto found = primitive->attributes.find(name);
+  if (found == primitive->attributes.end()) return std::nullopt;
+  return Accessor(follow(primitive.member("attributes").member(name), found->second,
+                         primitive.model().accessors, "accessors"));
+}
+
+/// An attribute beside POSITION, which has `count` elements.
+std::optional<Accessor> attribute(const Element<tinygltf::Primitive>& primitive, const char* name,
                                   std::uint64_t count, int least_components, int most_components) {
-  const std::optional<Element> element = attributes.find(name);
-  if (!element) return std::nullopt;
-  Accessor accessor(attributes.follow(name, "accessors"), buffers);
-  if (accessor.components() < least_components || accessor.components() > most_components) {
-    element->fail("has a type that this attribute cannot have", "see glTF 2.0, section 3.7.2.1");
+  std::optional<Accessor> accessor = attribute(primitive, name);
+  if (!accessor) return std::nullopt;
+  const Place place = primitive.member("attributes").member(name);
+  if (accessor->components() < least_components || accessor->components() > most_components) {
+    place.fail("has a type that this attribute cannot have", "see glTF 2.0, section 3.7.2.1");
   }
-  if (accessor.count() != count) {
-    element->fail("has " + std::to_string(accessor.count()) + " elements beside " +
-                      std::to_string(count) + " positions",
-                  "give every attribute as many");
+  if (accessor->count() != count) {
+    place.fail("has " + std::to_string(accessor->count()) + " elements beside " +
+                   std::to_string(count) + " positions",
+               "give every attribute as many");
   }
   return accessor;
 }
 
-Accessor read_positions(const Element& attributes, Buffers& buffers) {
-  Accessor accessor(attributes.follow("POSITION", "accessors"), buffers);
-  const Element element = attributes.require("POSITION");
-  if (accessor.components() != 3) element.fail("is not of type VEC3", "write x, y, z");
-  return accessor;
-}
-
-std::optional<Accessor> read_indices(const Element& primitive, Buffers& buffers) {
-  const std::optional<Element> element = primitive.find("indices");
-  if (!element) return std::nullopt;
-  Accessor accessor(primitive.follow("indices", "accessors"), buffers);
+std::optional<Accessor> read_indices(const Element<tinygltf::Primitive>& primitive) {
+  if (primitive->indices == -1) return std::nullopt;
+  const Place place = primitive.member("indices");
+  Accessor accessor(follow(place, primitive->indices, primitive.model().accessors, "accessors"));
   const ComponentType type = accessor.component_type();
   const bool is_unsigned =
       type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
   if (accessor.components() != 1 || !is_unsigned) {
-    element->fail("are not unsigned integers", "use SCALAR with componentType 5121, 5123 or 5125");
+    place.fail("are not unsigned integers", "use SCALAR with componentType 5121, 5123 or 5125");
   }
   return accessor;
 }
 
-void warn_of_unread(const Element& primitive, const Element& attributes) {
-  if (primitive.find("targets")) primitive.warn("morph targets", "morph targets are ignored");
-  if (attributes.find("JOINTS_0")) attributes.warn("skins", "skins are ignored");
-  if (attributes.find("COLOR_1")) attributes.warn("COLOR_1", "only COLOR_0 is read");
+void warn_of_unread(const Element<tinygltf::Primitive>& primitive) {
+  const Place attributes = primitive.member("attributes");
+  if (!primitive->targets.empty()) primitive.warn("morph targets", "morph targets are ignored");
+  if (primitive->attributes.contains("JOINTS_0")) attributes.warn("skins", "skins are ignored");
+  if (primitive->attributes.contains("COLOR_1")) attributes.warn("COLOR_1", "only COLOR_0 is read");
 }
 
-std::optional<Primitive> read_primitive(const Element& element, Buffers& buffers,
+std::optional<int> material_of(const Element<tinygltf::Primitive>& primitive) {
+  if (primitive->material == -1) return std::nullopt;
+  follow(primitive.member("material"), primitive->material, primitive.model().materials,
+         "materials");
+  return primitive->material;
+}
+
+std::optional<Primitive> read_primitive(const Element<tinygltf::Primitive>& element,
                                         MaterialUses& materials) {
   const std::optional<Topology> topology = topology_of(element);
   if (!topology) return std::nullopt;
-  const Element attributes = element.require("attributes");
-  warn_of_unread(element, attributes);
-  if (!attributes.find("POSITION")) {
+  warn_of_unread(element);
+  std::optional<Accessor> position = attribute(element, "POSITION");
+  if (!position) {
     element.warn("no positions", "a primitive without POSITION is not rendered");
     return std::nullopt;
   }
-  Primitive primitive{element, *topology, read_positions(attributes, buffers), {}, {}, {}, {},
-                      0,       0};
-  const std::uint64_t count = primitive.position.count();
-  primitive.normal = attribute(attributes, "NORMAL", buffers, count, 3, 3);
-  primitive.texcoord = attribute(attributes, "TEXCOORD_0", buffers, count, 2, 2);
-  primitive.color = attribute(attributes, "COLOR_0", buffers, count, 3, 4);
-  primitive.indices = read_indices(element, buffers);
+  const std::uint64_t count = position->count();
+  if (position->components() != 3) {
+    element.member("attributes.POSITION").fail("is not of type VEC3", "write x, y, z");
+  }
+  Primitive primitive{element, *topology, std::move(*position), {}, {}, {}, {}, 0, 0};
+  primitive.normal = attribute(element, "NORMAL", count, 3, 3);
+  primitive.texcoord = attribute(element, "TEXCOORD_0", count, 2, 2);
+  primitive.color = attribute(element, "COLOR_0", count, 3, 4);
+  primitive.indices = read_indices(element);
   primitive.triangle_count =
       triangle_count_of(element, *topology, primitive.indices ? primitive.indices->count() : count);
-  const bool has_material = element.find("material").has_value();
-  primitive.material = materials.use(
-      has_material ? std::optional(element.index("material", "materials")) : std::nullopt);
+  primitive.material = materials.use(material_of(element));
   return primitive;
 }
 
@@ -133,14 +141,13 @@ Indices vertices_of(const Primitive& primitive, std::uint64_t t) {
 glm::dvec3 checked_position(const Primitive& primitive, std::uint64_t vertex) {
   const Accessor& accessor = primitive.position;
   if (vertex >= accessor.count()) {
-    primitive.element.require("indices").fail("index " + std::to_string(vertex) + " exceeds the " +
-                                                  std::to_string(accessor.count()) + " vertices",
-                                              "repair the mesh");
+    primitive.element.member("indices").fail("index " + std::to_string(vertex) + " exceeds the " +
+                                                 std::to_string(accessor.count()) + " vertices",
+                                             "repair the mesh");
   }
   const glm::dvec3 position = accessor.vec3(vertex);
   if (!is_finite(position)) {
-    primitive.element.require("attributes")
-        .require("POSITION")
+    primitive.element.member("attributes.POSITION")
         .fail("vertex " + std::to_string(vertex) + " (" + accessor.path() + ") is not finite",
               "repair the mesh");
   }
@@ -223,20 +230,21 @@ glm::vec3 normal_of(const Primitive& primitive, std::uint64_t vertex, const glm:
 
 }  // namespace
 
-std::uint32_t MaterialUses::use(std::optional<std::uint32_t> index) {
+std::uint32_t MaterialUses::use(std::optional<int> index) {
   const auto next = static_cast<std::uint32_t>(in_order_.size());
   const auto [position, is_new] = positions_.emplace(index, next);
   if (is_new) in_order_.push_back(index);
   return position->second;
 }
 
-std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
+std::vector<Primitive> read_primitives(const Element<tinygltf::Mesh>& mesh,
                                        MaterialUses& materials) {
-  const Element list = mesh.require("primitives");
-  if (list.size() == 0) list.fail("is empty", "remove the mesh or give it a primitive");
+  const Place list = mesh.member("primitives");
+  if (mesh->primitives.empty()) list.fail("is empty", "remove the mesh or give it a primitive");
   std::vector<Primitive> primitives;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    std::optional<Primitive> primitive = read_primitive(list[i], buffers, materials);
+  for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
+    std::optional<Primitive> primitive =
+        read_primitive({list.item(i), mesh->primitives[i]}, materials);
     if (primitive) primitives.push_back(std::move(*primitive));
   }
   return primitives;

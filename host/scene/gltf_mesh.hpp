@@ -15,12 +15,12 @@ namespace ppm::scene::gltf {
 class MaterialUses {
  public:
   /// The index in Scene::materials of the glTF material `index`.
-  std::uint32_t use(std::optional<std::uint32_t> index);
-  const std::vector<std::optional<std::uint32_t>>& in_order() const { return in_order_; }
+  std::uint32_t use(std::optional<int> index);
+  const std::vector<std::optional<int>>& in_order() const { return in_order_; }
 
  private:
-  std::map<std::optional<std::uint32_t>, std::uint32_t> positions_;
-  std::vector<std::optional<std::uint32_t>> in_order_;
+  std::map<std::optional<int>, std::uint32_t> positions_;
+  std::vector<std::optional<int>> in_order_;
 };
 
 enum class Topology { triangles, strip, fan };
@@ -28,7 +28,7 @@ enum class Topology { triangles, strip, fan };
 /// A primitive whose accessors agree with each other. `extend` checks the indices and positions in
 /// it.
 struct Primitive {
-  Element element;
+  Element<tinygltf::Primitive> element;
   Topology topology = Topology::triangles;
   Accessor position;
   std::optional<Accessor> normal, texcoord, color, indices;
@@ -44,7 +44,7 @@ struct Box {
 
 /// The primitives of a mesh that consist of triangles; others are skipped with a warning.
 /// Throws Failure for malformed ones. Takes no time in proportion to their size.
-std::vector<Primitive> read_primitives(const Element& mesh, Buffers& buffers,
+std::vector<Primitive> read_primitives(const Element<tinygltf::Mesh>& mesh,
                                        MaterialUses& materials);
 
 /// Extends `box` by the corners of the primitive's triangles in the world. Throws Failure for

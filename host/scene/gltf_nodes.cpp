@@ -1,30 +1,27 @@
 #include "gltf_nodes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace ppm::scene::gltf {
 namespace {
 
-glm::dmat4 matrix_of(const Element& element) {
-  std::array<double, 16> values{};
-  element.numbers(values);
-  glm::dmat4 matrix(1.0);
-  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
+glm::dmat4 matrix_of(const Place& place, const std::vector<double>& values) {
+  place.check_length(values.size(), 16);
+  const glm::dmat4 matrix = glm::make_mat4(values.data());
   if (matrix[0][3] != 0.0 || matrix[1][3] != 0.0 || matrix[2][3] != 0.0 || matrix[3][3] != 1.0) {
-    element.fail("is not affine", "let its last row be 0 0 0 1");
+    place.fail("is not affine", "let its last row be 0 0 0 1");
   }
   return matrix;
 }
 
 /// Rotation by a quaternion (x, y, z, w) of any length but zero.
-glm::dmat3 rotation_of(const Element& element) {
-  std::array<double, 4> q{};
-  element.numbers(q);
+glm::dmat3 rotation_of(const Place& place, const std::vector<double>& q) {
+  place.check_length(q.size(), 4);
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   if (!(length > 0.0) || !std::isfinite(length)) {
-    element.fail("is not a rotation", "write a unit quaternion x, y, z, w");
+    place.fail("is not a rotation", "write a unit quaternion x, y, z, w");
   }
   const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
   // Columns: the images of the axes.
@@ -33,21 +30,23 @@ glm::dmat3 rotation_of(const Element& element) {
           {2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)}};
 }
 
-glm::dmat4 local_transform(const Element& node) {
-  if (const std::optional<Element> matrix = node.find("matrix")) return matrix_of(*matrix);
+glm::dvec3 vector_of(const Place& place, const std::vector<double>& values) {
+  place.check_length(values.size(), 3);
+  return {values[0], values[1], values[2]};
+}
+
+/// What is absent is empty in tinygltf.
+glm::dmat4 local_transform(const Element<tinygltf::Node>& node) {
+  if (!node->matrix.empty()) return matrix_of(node.member("matrix"), node->matrix);
   glm::dmat3 linear(1.0);
-  if (const std::optional<Element> rotation = node.find("rotation"))
-    linear = rotation_of(*rotation);
-  if (const std::optional<Element> scale = node.find("scale")) {
-    std::array<double, 3> s{};
-    scale->numbers(s);
-    for (int axis = 0; axis < 3; ++axis) linear[axis] *= s[static_cast<std::size_t>(axis)];
+  if (!node->rotation.empty()) linear = rotation_of(node.member("rotation"), node->rotation);
+  if (!node->scale.empty()) {
+    const glm::dvec3 scale = vector_of(node.member("scale"), node->scale);
+    for (int axis = 0; axis < 3; ++axis) linear[axis] *= scale[axis];
   }
   glm::dmat4 matrix(linear);
-  if (const std::optional<Element> translation = node.find("translation")) {
-    std::array<double, 3> t{};
-    translation->numbers(t);
-    matrix[3] = {t[0], t[1], t[2], 1.0};
+  if (!node->translation.empty()) {
+    matrix[3] = {vector_of(node.member("translation"), node->translation), 1.0};
   }
   return matrix;
 }
@@ -61,41 +60,45 @@ bool is_finite(const glm::dmat4& matrix) {
   return true;
 }
 
-std::vector<std::uint32_t> indices_of(const Element& list) {
-  std::vector<std::uint32_t> indices;
-  for (std::size_t i = 0; i < list.size(); ++i) indices.push_back(list[i].as_index("nodes"));
-  return indices;
-}
+using Nodes = std::vector<Element<tinygltf::Node>>;
 
-std::vector<std::uint32_t> children_of(const Element& node) {
-  const std::optional<Element> children = node.find("children");
-  return children ? indices_of(*children) : std::vector<std::uint32_t>();
-}
-
-std::vector<std::uint32_t> parentless_nodes(const Element& nodes) {
-  std::vector<bool> has_parent(nodes.size(), false);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const std::uint32_t child : children_of(nodes[i])) has_parent[child] = true;
+Nodes nodes_of(const Place& list, const std::vector<int>& indices) {
+  Nodes nodes;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    nodes.push_back(follow(list.item(i), indices[i], list.model().nodes, "nodes"));
   }
-  std::vector<std::uint32_t> roots;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!has_parent[i]) roots.push_back(static_cast<std::uint32_t>(i));
+  return nodes;
+}
+
+Nodes children_of(const Element<tinygltf::Node>& node) {
+  return nodes_of(node.member("children"), node->children);
+}
+
+std::size_t position_of(const Element<tinygltf::Node>& node) {
+  return static_cast<std::size_t>(&*node - node.model().nodes.data());
+}
+
+Nodes parentless_nodes(const Place& root) {
+  const std::vector<tinygltf::Node>& all = root.model().nodes;
+  std::vector<bool> has_parent(all.size(), false);
+  const auto node_at = [&](std::size_t i) { return Element(root.member("nodes").item(i), all[i]); };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const auto& child : children_of(node_at(i))) has_parent[position_of(child)] = true;
+  }
+  Nodes roots;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!has_parent[i]) roots.push_back(node_at(i));
   }
   return roots;
 }
 
-std::vector<std::uint32_t> root_nodes(Origin& origin, const Element& nodes) {
-  const Element root(origin, *origin.root, "");
-  const std::optional<Element> scenes = root.find("scenes");
-  std::optional<Element> scene;
-  if (root.find("scene")) {
-    scene = root.follow("scene", "scenes");
-  } else if (scenes && scenes->size() > 0) {
-    scene = (*scenes)[0];
-  }
-  if (!scene) return parentless_nodes(nodes);
-  const std::optional<Element> list = scene->find("nodes");
-  return list ? indices_of(*list) : std::vector<std::uint32_t>();
+Nodes root_nodes(const Place& root) {
+  const tinygltf::Model& model = root.model();
+  const bool names_one = model.defaultScene != -1;
+  if (!names_one && model.scenes.empty()) return parentless_nodes(root);
+  const auto scene =
+      follow(root.member("scene"), names_one ? model.defaultScene : 0, model.scenes, "scenes");
+  return nodes_of(scene.member("nodes"), scene->nodes);
 }
 
 }  // namespace
@@ -108,37 +111,28 @@ std::optional<glm::dvec3> unit(glm::dvec3 v) {
   return std::isfinite(glm::dot(result, result)) ? std::optional(result) : std::nullopt;
 }
 
-std::vector<Placement> place_nodes(Origin& origin) {
-  std::vector<Placement> placements;
-  const std::optional<Element> nodes = top_level(origin, "nodes");
-  if (!nodes) return placements;
-
-  struct Pending {
-    std::uint32_t node;
-    glm::dmat4 parent_to_world;
+std::vector<Placement> place_nodes(Document& document) {
+  std::vector<Placement> pending;  // a stack of our own: the depth is the file's choice
+  const auto push = [&](const Nodes& nodes, const glm::dmat4& parent_to_world) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      pending.push_back({*node, parent_to_world});
+    }
   };
-  std::vector<Pending> pending;  // a stack of our own: the depth is the file's choice
-  const std::vector<std::uint32_t> roots = root_nodes(origin, *nodes);
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    pending.push_back({*root, glm::dmat4(1.0)});
-  }
-  std::vector<bool> reached(nodes->size(), false);
+  push(root_nodes(Place(document, "")), glm::dmat4(1.0));
+  std::vector<Placement> placements;
+  std::vector<bool> reached(document.model.nodes.size(), false);
   while (!pending.empty()) {
-    const Pending next = pending.back();
+    const auto [node, parent_to_world] = pending.back();
     pending.pop_back();
-    const Element node = (*nodes)[next.node];
-    if (reached[next.node]) {
+    if (reached[position_of(node)]) {
       node.fail("is reached twice: it has two parents, is its own ancestor or is listed twice",
                 "let every node have one parent at most");
     }
-    reached[next.node] = true;
-    const glm::dmat4 to_world = next.parent_to_world * local_transform(node);
+    reached[position_of(node)] = true;
+    const glm::dmat4 to_world = parent_to_world * local_transform(node);
     if (!is_finite(to_world)) node.fail("its transform overflows", "use smaller numbers");
     placements.push_back({node, to_world});
-    const std::vector<std::uint32_t> children = children_of(node);
-    for (auto child = children.rbegin(); child != children.rend(); ++child) {
-      pending.push_back({*child, to_world});
-    }
+    push(children_of(node), to_world);
   }
   return placements;
 }

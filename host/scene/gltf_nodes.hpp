@@ -4,13 +4,13 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "gltf_json.hpp"
+#include "gltf_document.hpp"
 
 namespace ppm::scene::gltf {
 
 /// A node and its transform to world space (affine, finite, maybe singular).
 struct Placement {
-  Element node;
+  Element<tinygltf::Node> node;
   glm::dmat4 to_world;
 };
 
@@ -20,6 +20,6 @@ std::optional<glm::dvec3> unit(glm::dvec3 v);
 /// The nodes of the default scene (the first if none is named; all root nodes if there is none),
 /// parents first. Throws Failure for cycles, nodes with two parents and transforms that are not
 /// finite.
-std::vector<Placement> place_nodes(Origin& origin);
+std::vector<Placement> place_nodes(Document& document);
 
 }  // namespace ppm::scene::gltf

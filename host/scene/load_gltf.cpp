@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <new>
-#include <nlohmann/json.hpp>
 
 #include "failure.hpp"
 #include "gltf_camera.hpp"
@@ -27,42 +26,35 @@ struct Instance {
 };
 
 /// The meshes that nodes use, each read once. Element addresses in a map are stable.
-using Meshes = std::map<std::uint32_t, std::vector<Primitive>>;
+using Meshes = std::map<int, std::vector<Primitive>>;
 
-void check_version(const Element& root) {
-  const Element asset = root.require("asset");
-  const Element version = asset.require("version");
-  const std::optional<Element> least = asset.find("minVersion");
-  if (!version.text().starts_with("2.") || (least && least->text() != "2.0")) {
-    version.fail("is not 2.0 but " + printable(version.text()), "export the scene as glTF 2.0");
+void check_version(const Place& root) {
+  const tinygltf::Asset& asset = root.model().asset;
+  const bool is_enough = asset.minVersion.empty() || asset.minVersion == "2.0";
+  if (!asset.version.starts_with("2.") || !is_enough) {
+    root.member("asset.version")
+        .fail("is not 2.0 but " + printable(asset.version), "export the scene as glTF 2.0");
   }
 }
 
-void warn_of_unread(const Element& root) {
-  const auto animations = root.find("animations");
-  if (animations && animations->size() > 0)
-    animations->warn("animations", "animations are ignored");
-}
-
-std::vector<Instance> place_meshes(const std::vector<Placement>& placements, Buffers& buffers,
+std::vector<Instance> place_meshes(const std::vector<Placement>& placements,
                                    MaterialUses& materials, Meshes& meshes) {
   std::vector<Instance> instances;
   for (const Placement& placement : placements) {
-    const Element& node = placement.node;
-    if (node.find("skin")) node.warn("skins", "skins are ignored");
-    if (!node.find("mesh")) continue;
-    const std::uint32_t index = node.index("mesh", "meshes");
-    auto mesh = meshes.find(index);
+    const Element<tinygltf::Node>& node = placement.node;
+    if (node->skin != -1) node.warn("skins", "skins are ignored");
+    if (node->mesh == -1) continue;
+    auto mesh = meshes.find(node->mesh);
     if (mesh == meshes.end()) {
-      const Element element = node.follow("mesh", "meshes");
-      mesh = meshes.emplace(index, read_primitives(element, buffers, materials)).first;
+      const auto element = follow(node.member("mesh"), node->mesh, node.model().meshes, "meshes");
+      mesh = meshes.emplace(node->mesh, read_primitives(element, materials)).first;
     }
     instances.push_back({&mesh->second, placement.to_world});
   }
   return instances;
 }
 
-std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, const Element& root) {
+std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, const Place& root) {
   std::uint64_t count = 0;
   for (const Instance& instance : instances) {
     for (const Primitive& primitive : *instance.primitives) {
@@ -77,7 +69,7 @@ std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, con
   return count;
 }
 
-Frame frame_of(const std::vector<Instance>& instances, const Element& root) {
+Frame frame_of(const std::vector<Instance>& instances, const Place& root) {
   Box box;
   for (const Instance& instance : instances) {
     for (const Primitive& primitive : *instance.primitives) {
@@ -96,7 +88,7 @@ Frame frame_of(const std::vector<Instance>& instances, const Element& root) {
   return {0.5 * box.low + 0.5 * box.high, std::ldexp(1.0, -exponent)};
 }
 
-void bake_triangles(const std::vector<Instance>& instances, const Element& root, Scene& scene,
+void bake_triangles(const std::vector<Instance>& instances, const Place& root, Scene& scene,
                     Log& log) {
   scene.triangles.reserve(checked_triangle_count(instances, root));
   scene.frame = frame_of(instances, root);
@@ -129,12 +121,13 @@ void measure_bounds(Scene& scene) {
   }
 }
 
-void read_materials(const MaterialUses& uses, Origin& origin, Buffers& buffers, Scene& scene) {
-  MaterialReader reader(buffers, scene.textures);
-  const std::optional<Element> list = top_level(origin, "materials");
-  for (const std::optional<std::uint32_t>& index : uses.in_order()) {
+void read_materials(const MaterialUses& uses, const Place& root, Scene& scene) {
+  MaterialReader reader(scene.textures);
+  const Place list = root.member("materials");
+  for (const std::optional<int>& index : uses.in_order()) {
     if (index) {
-      scene.materials.push_back(reader.read((*list)[*index], scene.frame.scale));
+      const auto element = follow(list, *index, root.model().materials, "materials");
+      scene.materials.push_back(reader.read(element, scene.frame.scale));
     } else {
       scene.materials.push_back({});
       scene.materials.back().name = "default";
@@ -143,25 +136,22 @@ void read_materials(const MaterialUses& uses, Origin& origin, Buffers& buffers, 
 }
 
 Scene read_scene(const std::filesystem::path& file, Log& log) {
-  const Container container = read_container(file);
-  const nlohmann::json document = parse_json(container.json, file.string());
-  Origin origin{file.string(), &document, &log, {}};
-  const Element root(origin, document, "");
+  Document document = read_document(file, log);
+  const Place root(document, "");
   check_version(root);
-  check_extensions(origin);
-  warn_of_unread(root);
-
-  Buffers buffers(container.binary, file.parent_path());
-  const std::vector<Placement> placements = place_nodes(origin);
+  if (!document.model.animations.empty()) {
+    root.member("animations").warn("animations", "animations are ignored");
+  }
+  const std::vector<Placement> placements = place_nodes(document);
   MaterialUses uses;
   Meshes meshes;
-  const std::vector<Instance> instances = place_meshes(placements, buffers, uses, meshes);
+  const std::vector<Instance> instances = place_meshes(placements, uses, meshes);
 
   Scene scene;
-  scene.file = origin.file;
+  scene.file = document.file;
   bake_triangles(instances, root, scene, log);
   measure_bounds(scene);
-  read_materials(uses, origin, buffers, scene);
+  read_materials(uses, root, scene);
   for (const Placement& placement : placements) {
     if (auto light = read_light(placement, scene.frame)) scene.punctual_lights.push_back(*light);
     if (auto camera = read_camera(placement, scene.frame)) scene.cameras.push_back(*camera);

@@ -55,7 +55,8 @@ TEST(LoadGltf, SpotLights) {
        {"extensions",
         with_light(document, {{"type", "spot"},
                               {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}})}});
-  document.append("nodes", {{"extensions", with_light(document, {{"type", "spot"}})}});
+  document.append("nodes", {{"extensions",
+                             with_light(document, {{"type", "spot"}, {"spot", json::object()}})}});
   document.append(
       "nodes",
       {{"extensions",
@@ -117,7 +118,9 @@ TEST(LoadGltf, PerspectiveCameras) {
   document.append("cameras",
                   {{"type", "perspective"},
                    {"perspective", {{"yfov", 1.5}, {"znear", 1}, {"aspectRatio", 1.25}}}});
-  document.append("cameras", {{"type", "orthographic"}});
+  document.append("cameras",
+                  {{"type", "orthographic"},
+                   {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}});
   document.append("nodes", {{"camera", 0}, {"translation", {0.5, 0.5, 2}}, {"scale", {3, 3, 3}}});
   // 90 degrees about y: -z to -x, x to -z.
   document.append(

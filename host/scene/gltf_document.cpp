@@ -1,0 +1,261 @@
+#include "gltf_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+
+#include "failure.hpp"
+#include "gltf_gate.hpp"
+
+namespace ppm::scene::gltf {
+namespace {
+
+constexpr std::uint64_t kLargestFile = (std::uint64_t{1} << 32) - 16;  // tinygltf counts in 32 bits
+constexpr std::uint64_t kLargestSize = std::uint64_t{1} << 48;
+constexpr std::size_t kLongestPrintable = 200;
+constexpr std::size_t kMostListed = 10;
+constexpr std::array kKnownExtensions{
+    "KHR_materials_specular",          "KHR_materials_ior",
+    "KHR_materials_transmission",      "KHR_materials_volume",
+    "KHR_materials_emissive_strength", "KHR_lights_punctual",
+    "KHR_mesh_quantization",
+};
+
+std::string item_of(const std::string& array, std::size_t position) {
+  return array + "[" + std::to_string(position) + "]";
+}
+
+bool is_known_extension(std::string_view name) {
+  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) !=
+         kKnownExtensions.end();
+}
+
+/// Called for every image. `bytes` may point anywhere where the image lies in a bufferView.
+bool keep_encoded(tinygltf::Image* image, int, std::string* error, std::string*, int, int,
+                  const unsigned char* bytes, int size, void*) {
+  if (image->bufferView != -1) return true;
+  if (size < 0) {
+    *error += "an image is larger than 2 GiB";
+    return false;
+  }
+  image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+/// tinygltf asks with URIs alone (its base directory is empty) and learns by reading whether it
+/// may.
+tinygltf::FsCallbacks callbacks_for(Surroundings& surroundings) {
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& uri, void*) { return uri; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error,
+                               const std::string& uri, void* user) {
+    *error = static_cast<Surroundings*>(user)->read(uri, *bytes);
+    return error->empty();
+  };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                void*) { return false; };
+  callbacks.user_data = &surroundings;
+  return callbacks;
+}
+
+/// Where tinygltf stopped: behind what the model holds already. The order is that of its parser.
+std::string stopped_at(const tinygltf::Model& model, const Survey& survey,
+                       const std::string& error) {
+  const std::array<std::pair<const char*, std::size_t>, 13> read{{
+      {"buffers", model.buffers.size()},
+      {"bufferViews", model.bufferViews.size()},
+      {"accessors", model.accessors.size()},
+      {"meshes", model.meshes.size()},
+      {"nodes", model.nodes.size()},
+      {"scenes", model.scenes.size()},
+      {"materials", model.materials.size()},
+      {"images", model.images.size()},
+      {"textures", model.textures.size()},
+      {"animations", model.animations.size()},
+      {"skins", model.skins.size()},
+      {"samplers", model.samplers.size()},
+      {"cameras", model.cameras.size()},
+  }};
+  for (const auto& [array, count] : read) {
+    const auto length = survey.lengths.find(array);
+    if (length == survey.lengths.end() || count >= length->second) continue;
+    // It looks into the accessors of indices when all meshes are read.
+    const bool is_of_indices = array == std::string_view("nodes") && !error.starts_with("`nodes'");
+    return is_of_indices ? "meshes" : item_of(array, count);
+  }
+  return item_of("extensions.KHR_lights_punctual.lights", model.lights.size());
+}
+
+/// Its complaints end in line breaks; the first is the cause of the others.
+std::string first_line(const std::string& text) {
+  return printable(text.substr(0, text.find('\n')));
+}
+
+tinygltf::Model parse(const std::vector<unsigned char>& bytes, const std::filesystem::path& file,
+                      const Survey& survey) {
+  Surroundings surroundings(file.parent_path());
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks(callbacks_for(surroundings));
+  parser.SetImageLoader(keep_encoded, nullptr);
+  tinygltf::Model model;
+  std::string error, warning;  // of images that are missing, which matter only where they are used
+  bool succeeded = false;
+  try {
+    const auto size = static_cast<unsigned int>(bytes.size());
+    succeeded =
+        survey.is_binary
+            ? parser.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
+            : parser.LoadASCIIFromString(&model, &error, &warning,
+                                         reinterpret_cast<const char*>(bytes.data()), size, "");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& exception) {
+    error += exception.what();
+  }
+  if (!succeeded || !error.empty()) {
+    const std::string place = succeeded ? "" : stopped_at(model, survey, error);
+    throw Failure(file.string(), place, first_line(error), "export it again, or see glTF 2.0");
+  }
+  return model;
+}
+
+void check_extensions(Document& document, std::set<std::string> used) {
+  const auto& required = document.model.extensionsRequired;
+  for (std::size_t i = 0; i < required.size(); ++i) {
+    if (is_known_extension(required[i])) continue;
+    Place(document, "extensionsRequired")
+        .item(i)
+        .fail("the file requires the extension " + printable(required[i]) +
+                  ", which this program does not know",
+              "export the file without it");
+  }
+  std::erase_if(used, [](const std::string& name) { return is_known_extension(name); });
+  if (used.empty()) return;
+  std::string list;
+  std::size_t listed = 0;
+  for (const std::string& name : used) {
+    if (++listed > kMostListed) break;
+    list += (list.empty() ? "" : ", ") + printable(name);
+  }
+  if (used.size() > kMostListed) list += " and more";
+  document.log->warn(document.file + ": unknown extensions are ignored: " + list);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result(text.substr(0, kLongestPrintable));
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  if (text.size() > kLongestPrintable) result += "...";
+  return result;
+}
+
+Document read_document(const std::filesystem::path& file, Log& log) {
+  std::vector<unsigned char> bytes;
+  const std::string error = read_file(file, kLargestFile, bytes);
+  if (!error.empty()) {
+    throw Failure(file.string(), "", error, "name a .gltf or .glb file that you may read");
+  }
+  const Survey found = survey(bytes, file.string());
+  Document document{file.string(), parse(bytes, file, found), &log, {}};
+  check_extensions(document, found.extensions);
+  return document;
+}
+
+Place Place::member(std::string_view key) const {
+  return {*document_, path_.empty() ? std::string(key) : path_ + "." + std::string(key)};
+}
+
+Place Place::item(std::size_t position) const {
+  return {*document_, item_of(path_, position)};
+}
+
+void Place::fail(std::string_view what_is_wrong, std::string_view remedy) const {
+  throw Failure(document_->file, path_, what_is_wrong, remedy);
+}
+
+void Place::warn(std::string_view kind, std::string_view text) const {
+  if (!document_->warned.emplace(kind).second) return;
+  document_->log->warn(document_->file + ": " + path_ + ": " + std::string(text));
+}
+
+std::string Place::last_key() const {
+  return path_.substr(path_.rfind('.') + 1);
+}
+
+double Place::clamped(double value, double low, double high) const {
+  if (value >= low && value <= high) return value;
+  warn("range of " + last_key(), "lies outside its range and was clamped to it");
+  return std::clamp(value, low, high);
+}
+
+void Place::clamped(const std::vector<double>& values, std::span<float> out, double low,
+                    double high) const {
+  check_length(values.size(), out.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = static_cast<float>(clamped(values[i], low, high));
+  }
+}
+
+std::uint64_t Place::size(std::uint64_t value) const {
+  if (value > kLargestSize) fail("is larger than any file", "correct it");
+  return value;
+}
+
+void Place::check_length(std::size_t actual, std::size_t expected) const {
+  if (actual == expected) return;
+  fail("has " + std::to_string(actual) + " items", "write " + std::to_string(expected));
+}
+
+ByteView bytes_of(const Element<tinygltf::BufferView>& view) {
+  const auto buffer = follow(view.member("buffer"), view->buffer, view.model().buffers, "buffers");
+  const ByteView bytes(buffer->data);
+  const std::uint64_t offset = view.member("byteOffset").size(view->byteOffset);
+  const std::uint64_t length = view.member("byteLength").size(view->byteLength);
+  if (offset > bytes.size() || length > bytes.size() - offset) {
+    view.fail("ends at byte " + std::to_string(offset + length) + " of a buffer of " +
+                  std::to_string(bytes.size()),
+              "correct byteOffset and byteLength");
+  }
+  return bytes.subspan(offset, length);
+}
+
+std::optional<Extension> Extension::find(const Place& owner,
+                                         const tinygltf::ExtensionMap& extensions,
+                                         const std::string& name) {
+  const auto extension = extensions.find(name);
+  if (extension == extensions.end() || !extension->second.IsObject()) return std::nullopt;
+  return Extension(owner.member("extensions").member(name),
+                   extension->second.Get<tinygltf::Value::Object>());
+}
+
+std::optional<double> Extension::number(const std::string& key) const {
+  const auto found = members_->find(key);
+  if (found == members_->end()) return std::nullopt;
+  if (!found->second.IsNumber()) member(key).fail("is not a number", "write a number here");
+  return found->second.GetNumberAsDouble();
+}
+
+float Extension::factor(const std::string& key, double otherwise, double low, double high) const {
+  const std::optional<double> value = number(key);
+  return static_cast<float>(value ? member(key).clamped(*value, low, high) : otherwise);
+}
+
+void Extension::factors(const std::string& key, std::span<float> out, double low,
+                        double high) const {
+  const auto found = members_->find(key);
+  if (found == members_->end()) return;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < found->second.ArrayLen(); ++i) {
+    const tinygltf::Value& value = found->second.Get(static_cast<int>(i));
+    if (!value.IsNumber()) member(key).item(i).fail("is not a number", "write a number here");
+    values.push_back(value.GetNumberAsDouble());
+  }
+  member(key).clamped(values, out, low, high);
+}
+
+}  // namespace ppm::scene::gltf
