@@ -81,7 +81,10 @@ int render_command(const RenderOptions& options) {
 
   const scene::Scene scene = scene::load_gltf(options.scene, log);
   const double load_seconds = seconds_since(start);
-  if (interruption.requested()) return kInterrupted;
+  if (interruption.requested()) {
+    log.warn("interrupted while the scene was read; nothing is written");
+    return kInterrupted;
+  }
   const render::Settings settings = settings_for(options, scene, log);
   log.note(fmt::format("{}: {} triangles, {} materials, {:.2f} s", scene.file,
                        scene.triangles.size(), scene.materials.size(), load_seconds));
