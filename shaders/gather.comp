@@ -47,19 +47,22 @@ Receiver fetch_receiver(uint hit) {
   return receiver;
 }
 
+// Lavapipe runs the code of every branch, with lanes masked off, and an atomic lane by lane: so events are counted
+// in registers and told once a search.
 struct Sums {
   uint count;
   Fixed64 red, green, blue;
+  uint clamped, overflow;  // events
 };
 
-void add_term(inout Fixed64 sum, float term) {
+void add_term(inout Fixed64 sum, float term, inout uint overflow) {
   if (!(term >= 0.0 && term < PPM_FIXED_LIMIT)) {
-    count_event(PPM_COUNTER_OVERFLOW);
+    overflow += 1u;
     term = term > 0.0 ? PPM_FIXED_LIMIT * 0.5 : 0.0;
   }
   uint carry;
   sum = add_fixed(sum, to_fixed(term), carry);
-  if (carry != 0u) count_event(PPM_COUNTER_OVERFLOW);
+  overflow += carry;
 }
 
 // f_r * flux of a photon within the disc [HOJ08 Eq. 11], if it counts there.
@@ -72,12 +75,23 @@ void add_photon(Receiver receiver, Photon photon, inout Sums sums) {
   float factor = merge_normal_factor(wi.z, dot(photon.incident, photon.normal));
   if (factor > PPM_MAX_NORMAL_FACTOR) {
     factor = PPM_MAX_NORMAL_FACTOR;
-    count_event(PPM_COUNTER_CLAMPED);
+    sums.clamped += 1u;
   }
   precise vec3 term = bsdf_eval(receiver.bsdf, receiver.wo, wi) * photon.flux * factor;
-  add_term(sums.red, term.x);
-  add_term(sums.green, term.y);
-  add_term(sums.blue, term.z);
+  add_term(sums.red, term.x, sums.overflow);
+  add_term(sums.green, term.y, sums.overflow);
+  add_term(sums.blue, term.z, sums.overflow);
+}
+
+// Which of up to 32 photons lie in the disc, a bit each. Finding is cheap and adding dear, and invocations in step
+// take as long as the one with most to do: apart, neither waits for the other.
+uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
+  uint found = 0u;
+  for (uint i = first; i < last; ++i) {
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
+    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
+  }
+  return found;
 }
 
 void leave_cursor(uint hit, uint row, uint offset) {
@@ -97,7 +111,7 @@ void main() {
   vec3 position = uintBitsToFloat(PPM_FETCH(hits_0, hit).xyz);
   CellBox box = cells_within(push.grid, position, radius2);
   Receiver receiver = fetch_receiver(hit);
-  Sums sums = Sums(0u, Fixed64(0u, 0u), Fixed64(0u, 0u), Fixed64(0u, 0u));
+  Sums sums = Sums(0u, Fixed64(0u, 0u), Fixed64(0u, 0u), Fixed64(0u, 0u), 0u, 0u);
   uint rows = row_count(box);
   uint budget = PPM_GATHER_SLICE;
   uint offset = cursor.offset;
@@ -110,10 +124,12 @@ void main() {
     CellRow row = cell_row(push.grid, box, row_index);
     uint begin = row.begin + offset;
     uint end = min(row.end, begin + budget);
-    for (uint i = begin; i < end; ++i) {
-      uvec4 photon_position = PPM_FETCH(sorted_position, i);
-      if (within(push.grid, row, position, uintBitsToFloat(photon_position.xyz), radius2)) {
-        add_photon(receiver, unpack_photon(photon_position, PPM_FETCH(sorted_flux, i)), sums);
+    for (uint first = begin; first < end; first += 32u) {
+      uint found = photons_within(row, position, radius2, first, min(first + 32u, end));
+      while (found != 0u) {
+        uint i = first + uint(findLSB(found));
+        found &= found - 1u;
+        add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, i), PPM_FETCH(sorted_flux, i)), sums);
       }
     }
     budget -= end - begin;
@@ -129,7 +145,9 @@ void main() {
   Fixed64 red = add_fixed(Fixed64(total.flux[0], total.flux[1]), sums.red, carry0);
   Fixed64 green = add_fixed(Fixed64(total.flux[2], total.flux[3]), sums.green, carry1);
   Fixed64 blue = add_fixed(Fixed64(total.flux[4], total.flux[5]), sums.blue, carry2);
-  if ((carry0 | carry1 | carry2) != 0u) count_event(PPM_COUNTER_OVERFLOW);
+  sums.overflow += carry0 + carry1 + carry2;
+  if (sums.overflow != 0u) atomicAdd(counters[PPM_COUNTER_OVERFLOW], sums.overflow);
+  if (sums.clamped != 0u) atomicAdd(counters[PPM_COUNTER_CLAMPED], sums.clamped);
   total.count += sums.count;
   total.flux = uint[6](red.low, red.high, green.low, green.high, blue.low, blue.high);
   gather_sums[hit] = total;
