@@ -164,6 +164,10 @@ void measure_rendering(gpu::Device& device, const Unit& unit, unsigned threads) 
   row("eye pass", times.eye, times.unit_at_start);
   row("pass at the start", times.first, times.unit_at_first);
   row("pass once radii have halved", times.shrunk, times.unit_at_shrunk);
+  fmt::print("of a pass at the start, by kernel, mean ms:");
+  for (const auto& [kernel, seconds] : times.kernels)
+    fmt::print("  {} {:.1f}", kernel, 1e3 * seconds);
+  fmt::print("\n");
 }
 
 void measure_trees(RTCDevice embree, unsigned threads) {

@@ -48,8 +48,13 @@ PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigne
                 [&] { times.prepare.push_back(seconds_of([&] { integrator->prepare(never); })); });
     times.eye.push_back(integrator->statistics().seconds.at("eye"));
     integrator->advance(never);
+    const auto before = device.times();
     beside_unit(times.unit_at_first,
                 [&] { times.first.push_back(seconds_of([&] { integrator->advance(never); })); });
+    for (const auto& [kernel, time] : device.times()) {
+      const double earlier = before.count(kernel) > 0 ? before.at(kernel).seconds : 0.0;
+      if (time.seconds > earlier) times.kernels[kernel] += (time.seconds - earlier) / repeats;
+    }
   }
   for (int pass = 2; pass < passes_until_half(settings.alpha); ++pass) integrator->advance(never);
   for (int i = 0; i < repeats; ++i) {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "device.hpp"
 #include "scene.hpp"
@@ -18,6 +21,7 @@ struct PassTimes {
   std::vector<double> eye;      ///< the eye passes' share of that
   std::vector<double> first;   ///< a pass at the start (the second one: the first compiles kernels)
   std::vector<double> shrunk;  ///< a pass once radii have halved
+  std::map<std::string, double> kernels;  ///< device time of an average first pass, by kernel
   /// Embree's rays a second around prepare and eye, first, shrunk.
   std::vector<double> unit_at_start, unit_at_first, unit_at_shrunk;
 };
