@@ -125,6 +125,24 @@ std::optional<std::string> cut_integer(const json& value) {
   return std::nullopt;
 }
 
+/// The path, below `value`, of a negative index or size, which tinygltf would take for none.
+std::optional<std::string> negative_index(const json& value) {
+  constexpr std::array kNeverNegative{
+      "buffer",  "bufferView", "byteLength", "byteOffset", "byteStride", "camera",
+      "count",   "index",      "indices",    "light",      "mesh",       "material",
+      "sampler", "scene",      "skin",       "source",     "texCoord"};
+  if (!value.is_structured()) return std::nullopt;
+  for (const auto& [key, member] : value.items()) {
+    if (key == "extras") continue;
+    const std::string step = value.is_array() ? "[" + key + "]" : "." + key;
+    const bool is_index =
+        std::find(kNeverNegative.begin(), kNeverNegative.end(), key) != kNeverNegative.end();
+    if (is_index && member.is_number() && member.get<double>() < 0.0) return step;
+    if (const std::optional<std::string> rest = negative_index(member)) return step + *rest;
+  }
+  return std::nullopt;
+}
+
 /// Every name that stands as a member of some "extensions" object.
 void add_extensions(const json& value, std::set<std::string>& names) {
   if (!value.is_structured()) return;
@@ -204,6 +222,12 @@ Survey survey(const std::vector<unsigned char>& bytes, const std::string& file) 
   const json root = parse(text, file);
   if (const std::optional<std::string> path = cut_integer(root)) {
     throw Failure(file, path->substr(1), "is an integer beyond 32 bits", "correct the number");
+  }
+  if (const std::optional<std::string> path = negative_index(root)) {
+    throw Failure(file, path->substr(1), "is negative", "correct the number");
+  }
+  if (const auto asset = root.find("asset"); asset == root.end() || !asset->is_object()) {
+    throw Failure(file, "asset", "is missing or no object", "export the scene as glTF 2.0");
   }
   check_buffers(root, file);
   add_extensions(root, result.extensions);

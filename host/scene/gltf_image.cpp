@@ -2,10 +2,13 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <memory>
@@ -72,6 +75,29 @@ bool is_whole_png(ByteView bytes) {
   }
   return false;
 }
+
+/// Keeps stderr to ourselves: libpng prints errors and mere warnings there, and OpenImageIO 2.4
+/// does not stop it. Nothing happens where there is no stderr.
+class Silence {
+ public:
+  Silence() : stderr_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    std::fflush(stderr);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (stderr_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~Silence() {
+    std::fflush(stderr);
+    if (stderr_ < 0) return;
+    dup2(stderr_, STDERR_FILENO);
+    close(stderr_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int stderr_;
+};
 
 /// One encoded image that OpenImageIO has opened.
 class Decoder {
@@ -163,7 +189,9 @@ ByteView encoded_bytes(const Element<tinygltf::Image>& image) {
 }  // namespace
 
 Image decode_image(const Element<tinygltf::Image>& image, std::uint64_t texel_budget) {
-  Decoder decoder(image, encoded_bytes(image));
+  const ByteView bytes = encoded_bytes(image);
+  const Silence silence;
+  Decoder decoder(image, bytes);
   decoder.check_size(texel_budget);
   return decoder.read();
 }
