@@ -85,7 +85,9 @@ void stage_hit_point(EyePath path, Surface surface) {
   pack_bsdf(surface.bsdf, hit.bsdf, hit.bsdf_extra);
   float cosine = dot(path.direction, surface.geometric_normal);
   // Never 0, which would mark it as light seen: pixels may be smaller than single precision can square.
-  stage(path, hit, max(footprint_radius(pixel_area(scene), path.distance, cosine), kLeastFootprint));
+  uvec2 pixel = pixel_position(push.tile_first + path.pixel, scene.width, scene.height);
+  float solid_angle = pixel_solid_angle(scene, camera_direction(scene, vec2(pixel) + 0.5));
+  stage(path, hit, max(footprint_radius(solid_angle, path.distance, cosine), kLeastFootprint));
 }
 
 // Passes a branch on. Branches that weigh little survive in proportion to their weight (Russian roulette).
