@@ -15,12 +15,16 @@ constexpr float kSplitWeight = 1.0f / 64.0f;
 
 }  // namespace
 
+std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device) {
+  return std::min<std::uint64_t>(settings.tile_hits,
+                                 device.max_storage_bytes() / sizeof(shared::HitPoint));
+}
+
 EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Settings& settings)
     : device_(device),
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
-      capacity_(std::min<std::uint64_t>(settings.tile_hits,
-                                        device.max_storage_bytes() / sizeof(shared::HitPoint))),
+      capacity_(tile_capacity(settings, device)),
       hits_per_pixel_(1.4 * samples_),
       table_(scene),
       eye_(device, shaders::eye),

@@ -12,6 +12,9 @@
 
 namespace ppm::render {
 
+/// Hit points a tile holds at most: as many as asked for, or as the device's largest buffer takes.
+std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device);
+
 /// Queues and staging memory of the eye pass; needed only while tiles are made.
 class EyePass {
  public:

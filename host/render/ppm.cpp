@@ -46,7 +46,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       pipelines_begin_(clock_seconds()),
       tracer_(device, table_, photon_capacity(settings, device), kPathCapacity),
       grid_(device, scene.bounds_min, scene.bounds_max, photon_capacity(settings, device)),
-      estimator_(device, table_, settings.tile_hits),
+      estimator_(device, table_, tile_capacity(settings, device)),
       chunk_paths_(static_cast<std::uint32_t>(
           std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
