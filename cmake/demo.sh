@@ -8,6 +8,6 @@ sh cmake/packages.sh
 cmake --preset release
 cmake --build --preset release
 
-echo "Rendering scenes/box.glb: 640 x 480, 4 eye paths a pixel, 160 passes of 100000 photon paths"
-build/release/host/ppm-vk render scenes/box.glb --passes 160 -o box.png -o box.exr
+echo "Rendering scenes/box.glb: 640 x 480, 4 eye paths a pixel, 256 passes of 100000 photon paths"
+build/release/host/ppm-vk render scenes/box.glb --passes 256 -o box.png -o box.exr
 echo "The pictures: $PWD/box.png (display), $PWD/box.exr (linear radiance)"
