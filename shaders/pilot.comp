@@ -1,7 +1,7 @@
 // Pilot pass, step 1 of 2: how many photons lie in reach of each hit point that has no radius yet.
 //
 // One invocation a hit point; adds to its GATHER_SUMS the photons that count within the round's radius (no more than
-// are needed to know that there are enough) and, as `spare`, those in the cells around. Both sums depend on the set of
+// are needed to know that there are enough) and, as `nearby`, those in the cells around. Both sums depend on the set of
 // photons alone, neither on their order nor on their division into chunks, so that radii do not either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -31,7 +31,7 @@ void main() {
     CellRow row = cell_row(push.grid, box, i);
     candidates += row.end - row.begin;
   }
-  gather_sums[hit].spare += candidates;
+  gather_sums[hit].nearby += candidates;
   if (candidates > PPM_GATHER_SLICE) return;  // too many to look at: enough, see pilot_decide
 
   uint enough = PPM_PILOT_ENOUGH * push.wanted;

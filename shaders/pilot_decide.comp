@@ -22,9 +22,9 @@ void main() {
   float mark = statistics[hit].w;
   if (mark >= 0.0) return;  // decided, or light seen
   uint found = gather_sums[hit].count;
-  bool enough = gather_sums[hit].spare > PPM_GATHER_SLICE || found >= PPM_PILOT_ENOUGH * push.wanted;
+  bool enough = gather_sums[hit].nearby > PPM_GATHER_SLICE || found >= PPM_PILOT_ENOUGH * push.wanted;
   gather_sums[hit].count = 0u;
-  gather_sums[hit].spare = 0u;
+  gather_sums[hit].nearby = 0u;
 
   float least = square(push.footprints_min) * -mark;
   float most = square(push.round_index == 0u ? push.radius : 2.0 * push.radius);

@@ -102,7 +102,7 @@ struct SceneConstants {
   vec3 grid_origin;  // of the BVH's boxes
   uint light_count;
   vec3 grid_step;
-  float total_power;     // W / 3 channels summed / working area unit: sum of all lights' mean power
+  float total_power;     // sum of all lights' power, mean over channels, W * frame.scale^2
   vec3 bounding_centre;  // sphere around all triangles, for directional lights
   float bounding_radius;
   vec3 camera_position;
@@ -257,7 +257,7 @@ struct EyeOrderPush {
 struct GatherSum {
   uint count;             // M
   uint flux[6];           // sum of f_r * flux: r low, r high, g low, ...
-  uint spare;             // pilot: photons in the cells around
+  uint nearby;            // pilot only: photons in the cells around
   uint second_moment[2];  // room for an order-free second moment of luminance, 16.48 fixed point;
                           // zero today
 };                        // 40

@@ -44,7 +44,7 @@
 #define PPM_FIELDS_EYE_ORDER_PUSH(r) U1(r.first) U1(r.count) U1(r.samples)
 #define PPM_FIELDS_GATHER_SUM(r) \
   U1(r.count) U1(r.flux[0]) U1(r.flux[1]) U1(r.flux[2]) U1(r.flux[3]) U1(r.flux[4]) U1(r.flux[5]) \
-  U1(r.spare) U1(r.second_moment[0]) U1(r.second_moment[1])
+  U1(r.nearby) U1(r.second_moment[0]) U1(r.second_moment[1])
 #define PPM_FIELDS_GATHER_CURSOR(r) U1(r.hit) U1(r.row) U1(r.offset)
 #define PPM_FIELDS_GATHER_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.from_cursors) U1(r.cursor_capacity) \
