@@ -21,6 +21,7 @@
 #include "kernel_rays.hpp"
 #include "passes.hpp"
 #include "room.hpp"
+#include "terrain.hpp"
 
 namespace ppm::benchmark {
 namespace {
@@ -81,8 +82,8 @@ void measure_traversal(gpu::Device& device, RTCDevice embree_device, unsigned th
     const char* name;
     scene::Scene scene;
   };
-  for (const View& view : {View{"large room", support::make_room(support::kLargeRoomTriangles)},
-                           View{"terrain of 1.5M", support::make_terrain(1500000)}}) {
+  for (const View& view : {View{"large room", bench::make_room(bench::kLargeRoomTriangles)},
+                           View{"terrain of 1.5M", make_terrain(1500000)}}) {
     const std::span<const scene::Triangle> triangles = view.scene.triangles;
     const EmbreeScene embree(embree_device, triangles);
     const bvh::Bvh tree = bvh::build(triangles, threads);
@@ -123,7 +124,7 @@ class Unit {
  public:
   Unit(RTCDevice device, unsigned threads)
       : threads_(threads),
-        room_(support::make_room(support::kLargeRoomTriangles)),
+        room_(bench::make_room(bench::kLargeRoomTriangles)),
         embree_(device, room_.triangles),
         rays_(
             bounce_rays(embree_, room_.triangles, camera_rays(room_.cameras.front(), 1280, 960))) {}
@@ -146,7 +147,7 @@ double product_median(const std::vector<double>& seconds,
 }
 
 void measure_rendering(gpu::Device& device, const Unit& unit, unsigned threads) {
-  const scene::Scene room = support::make_room();
+  const scene::Scene room = bench::make_room();
   const PassTimes times =
       measure_passes(device, room, threads, kRepeats, [&] { return unit.rays_per_second(); });
   fmt::print("\nRoom of {} triangles on {}: 640x480, 1 eye path a pixel, 100000 photons a pass\n",
@@ -174,10 +175,10 @@ void measure_trees(RTCDevice embree, unsigned threads) {
   fmt::print("\nBuilding trees on {} threads\n{:<22} {:>9} {:<26} {:>8} {:>8} {:>9} {:>8} {:>8}\n",
              threads, "scene", "triangles", "builder", "ms", "SAH", "nodes", "time", "SAH");
   fmt::print("{:>101}\n", "as a share of the last");
-  compare_trees(embree, "room", support::make_room(), threads);
-  compare_trees(embree, "large room", support::make_room(support::kLargeRoomTriangles), threads);
-  compare_trees(embree, "room of 1.5M", support::make_room(1500000), threads);
-  compare_trees(embree, "terrain of 1.5M", support::make_terrain(1500000), threads);
+  compare_trees(embree, "room", bench::make_room(), threads);
+  compare_trees(embree, "large room", bench::make_room(bench::kLargeRoomTriangles), threads);
+  compare_trees(embree, "room of 1.5M", bench::make_room(1500000), threads);
+  compare_trees(embree, "terrain of 1.5M", make_terrain(1500000), threads);
 }
 
 int run(unsigned threads) {

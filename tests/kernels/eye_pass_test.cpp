@@ -60,7 +60,7 @@ class EyeOrder : public DeviceTest {
       hits.starts.push_back(start + before);
   }
 
-  scene::Scene room_ = support::make_room(20000);
+  scene::Scene room_ = bench::make_room(20000);
 };
 
 TEST_F(EyeOrder, RunsAndTilesGiveTheSameBits) {
