@@ -104,6 +104,7 @@ Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, Usage usag
   info.range = VK_WHOLE_SIZE;
   PPM_VK_CALL(self.device.name(), vkCreateBufferView, self.device.handle, &info, nullptr,
               &self.view);
+  self.device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, self.view, self.name);
 }
 
 Buffer::Buffer() = default;

@@ -46,10 +46,17 @@ void Device::Implementation::create_device() {
   info.pQueueCreateInfos = &queue_info;
   PPM_VK_CALL(name(), vkCreateDevice, physical.handle, &info, nullptr, &handle);
   vkGetDeviceQueue(handle, physical.queue_family, 0, &queue);
-  if (instance->names_objects()) {
-    set_object_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
-        vkGetDeviceProcAddr(handle, "vkSetDebugUtilsObjectNameEXT"));
-  }
+  if (instance->names_objects()) find_debug_calls();
+  set_name(VK_OBJECT_TYPE_QUEUE, queue, "compute");
+}
+
+void Device::Implementation::find_debug_calls() {
+  set_object_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+      vkGetDeviceProcAddr(handle, "vkSetDebugUtilsObjectNameEXT"));
+  cmd_begin_label = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
+      vkGetDeviceProcAddr(handle, "vkCmdBeginDebugUtilsLabelEXT"));
+  cmd_end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
+      vkGetDeviceProcAddr(handle, "vkCmdEndDebugUtilsLabelEXT"));
 }
 
 void Device::Implementation::create_commands() {
@@ -66,6 +73,9 @@ void Device::Implementation::create_commands() {
   VkFenceCreateInfo fence_info{};
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   PPM_VK_CALL(name(), vkCreateFence, handle, &fence_info, nullptr, &fence);
+  set_name(VK_OBJECT_TYPE_COMMAND_POOL, command_pool, "commands");
+  set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "commands");
+  set_name(VK_OBJECT_TYPE_FENCE, fence, "submission");
 }
 
 Device::Implementation::~Implementation() {
@@ -77,8 +87,8 @@ Device::Implementation::~Implementation() {
   vkDestroyDevice(handle, nullptr);
 }
 
-void Device::Implementation::set_name(VkObjectType type, std::uint64_t object,
-                                      const std::string& text) const {
+void Device::Implementation::set_name_of(VkObjectType type, std::uint64_t object,
+                                         const std::string& text) const {
   if (!set_object_name) return;
   VkDebugUtilsObjectNameInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
@@ -87,6 +97,18 @@ void Device::Implementation::set_name(VkObjectType type, std::uint64_t object,
   info.pObjectName = text.c_str();
   const char* const call = "vkSetDebugUtilsObjectNameEXT";
   require_success(name(), call, PPM_VK_TRY_AS(call, set_object_name, handle, &info));
+}
+
+void Device::Implementation::begin_label(const char* text) const {
+  if (!cmd_begin_label) return;
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = text;
+  cmd_begin_label(commands, &label);
+}
+
+void Device::Implementation::end_label() const {
+  if (cmd_end_label) cmd_end_label(commands);
 }
 
 void Device::Implementation::begin_commands() {
@@ -153,6 +175,9 @@ void Device::run(const std::function<void(Recorder&)>& record) {
 
 const std::map<std::string, KernelTime>& Device::times() const {
   return implementation_->times;
+}
+const std::map<std::string, KernelTime>& Device::region_times() const {
+  return implementation_->region_times;
 }
 std::uint64_t Device::allocated_bytes() const {
   return implementation_->allocated_bytes;

@@ -37,10 +37,14 @@ std::vector<DeviceDescription> list_devices();
 
 class Recorder;
 
-/// GPU time by label (kernel name, "copy"): seconds and dispatches. Filled by Device::run.
+/// GPU time by label (kernel name, "copy"; region): seconds and commands. Filled by Device::run.
 struct KernelTime {
   double seconds = 0.0;
   std::uint64_t dispatches = 0;
+  void add(double more) {
+    seconds += more;
+    ++dispatches;
+  }
 };
 
 /// Owns instance, logical device, queue, command pool and the account of memory.
@@ -62,6 +66,8 @@ class Device {
 
   /// Times since construction, by kernel name.
   const std::map<std::string, KernelTime>& times() const;
+  /// The same by region (region.hpp); "" is what ran outside of any.
+  const std::map<std::string, KernelTime>& region_times() const;
 
   std::uint64_t allocated_bytes() const;  ///< now, by our own account
   std::uint64_t peak_bytes() const;

@@ -27,7 +27,14 @@ struct Device::Implementation {
   void open(const DeviceOptions& chosen);
 
   const std::string& name() const { return physical.description.name; }
-  void set_name(VkObjectType type, std::uint64_t handle, const std::string& text) const;
+  /// Names an object for tools, and the begin and end of a stretch of commands; nothing where
+  /// VK_EXT_debug_utils is missing.
+  template <class Handle>
+  void set_name(VkObjectType type, Handle object, const std::string& text) const {
+    set_name_of(type, reinterpret_cast<std::uint64_t>(object), text);
+  }
+  void begin_label(const char* text) const;
+  void end_label() const;
 
   /// Starts the command buffer anew; the work recorded before must have ended.
   void begin_commands();
@@ -48,6 +55,8 @@ struct Device::Implementation {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
   PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT cmd_begin_label = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT cmd_end_label = nullptr;
 
   std::uint64_t allocated_bytes = 0, peak_bytes = 0;
   std::string memory_note;  ///< tells of the first buffer that had to go to host memory
@@ -56,9 +65,12 @@ struct Device::Implementation {
 
   bool recording = false;  ///< a Recorder has the command buffer
   std::unique_ptr<Recorder::Implementation> recorder;
-  std::map<std::string, KernelTime> times;
+  std::map<std::string, KernelTime> times, region_times;
+  std::vector<const char*> regions;  ///< open ones, the innermost last
 
  private:
+  void set_name_of(VkObjectType type, std::uint64_t object, const std::string& text) const;
+  void find_debug_calls();
   void create_device();
   void create_commands();
 };

@@ -74,6 +74,8 @@ void Kernel::Implementation::create_layouts() {
   layout_info.pushConstantRangeCount = reflection.push_bytes > 0 ? 1 : 0;
   layout_info.pPushConstantRanges = &range;
   PPM_VK_CALL(device.name(), vkCreatePipelineLayout, device.handle, &layout_info, nullptr, &layout);
+  device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout, name);
+  device.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
 }
 
 void Kernel::Implementation::create_pipeline(
@@ -83,6 +85,7 @@ void Kernel::Implementation::create_pipeline(
   module_info.codeSize = shader.words.size_bytes();
   module_info.pCode = shader.words.data();
   PPM_VK_CALL(device.name(), vkCreateShaderModule, device.handle, &module_info, nullptr, &module);
+  device.set_name(VK_OBJECT_TYPE_SHADER_MODULE, module, name);
 
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<std::uint32_t> values;
@@ -106,7 +109,7 @@ void Kernel::Implementation::create_pipeline(
   info.layout = layout;
   PPM_VK_CALL(device.name(), vkCreateComputePipelines, device.handle, VK_NULL_HANDLE, 1, &info,
               nullptr, &pipeline);
-  device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name);
+  device.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
   vkDestroyShaderModule(device.handle, module, nullptr);
   module = VK_NULL_HANDLE;
 }

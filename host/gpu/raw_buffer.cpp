@@ -62,7 +62,7 @@ void RawBuffer::create(Device::Implementation& device, const std::string& name, 
   info.size = bytes;
   info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   PPM_VK_CALL(device.name(), vkCreateBuffer, device.handle, &info, nullptr, &handle_);
-  device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_), name);
+  device.set_name(VK_OBJECT_TYPE_BUFFER, handle_, name);
 
   VkMemoryRequirements requirements;
   vkGetBufferMemoryRequirements(device.handle, handle_, &requirements);
@@ -82,6 +82,7 @@ void RawBuffer::create(Device::Implementation& device, const std::string& name, 
         "render a smaller picture with fewer photons, or choose another device with --device");
   }
   require_success(device.name(), "vkAllocateMemory", result);
+  device.set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_, name);
   PPM_VK_CALL(device.name(), vkBindBufferMemory, device.handle, handle_, memory_, 0);
   map(type, kind);
   const bool is_local =

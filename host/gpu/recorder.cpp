@@ -73,6 +73,7 @@ void Recorder::Implementation::create_pools() {
   query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
   query_info.queryCount = kMaxCommands + 1;
   PPM_VK_CALL(device.name(), vkCreateQueryPool, device.handle, &query_info, nullptr, &timestamps);
+  device.set_name(VK_OBJECT_TYPE_QUERY_POOL, timestamps, "timestamps");
   const VkDescriptorPoolSize sizes[] = {
       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMaxDescriptors},
       {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kMaxDescriptors},
@@ -85,6 +86,7 @@ void Recorder::Implementation::create_pools() {
   pool_info.pPoolSizes = sizes;
   PPM_VK_CALL(device.name(), vkCreateDescriptorPool, device.handle, &pool_info, nullptr,
               &descriptors);
+  device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, descriptors, "bindings");
 }
 
 Recorder::Implementation::~Implementation() {
@@ -116,10 +118,12 @@ void Recorder::Implementation::begin() {
   device.recording = true;
   vkCmdResetQueryPool(device.commands, timestamps, 0, kMaxCommands + 1);
   vkCmdWriteTimestamp(device.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps, 0);
+  for (const char* region : device.regions) device.begin_label(region);
 }
 
 void Recorder::Implementation::flush() {
   device.recording = false;
+  for (std::size_t i = 0; i < device.regions.size(); ++i) device.end_label();
   device.submit_and_wait();
   for (const Read& read : reads) {
     std::memcpy(read.destination, readback.mapped() + read.offset, read.bytes);
@@ -140,7 +144,7 @@ void Recorder::Implementation::prepare_command() {
 
 void Recorder::Implementation::finish_command(Kernel::Implementation* kernel, std::uint64_t items,
                                               double seconds) {
-  commands.push_back({kernel, items});
+  commands.push_back({kernel, items, device.regions.empty() ? "" : device.regions.back()});
   expected_seconds += seconds;
   vkCmdWriteTimestamp(device.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps,
                       static_cast<std::uint32_t>(commands.size()));
@@ -160,9 +164,8 @@ void Recorder::Implementation::add_times() {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const double seconds = static_cast<double>((ticks[i + 1] - ticks[i]) & mask) * seconds_per_tick;
     Kernel::Implementation* const kernel = commands[i].kernel;
-    KernelTime& time = device.times[kernel ? kernel->name : "copy"];
-    time.seconds += seconds;
-    ++time.dispatches;
+    device.times[kernel ? kernel->name : "copy"].add(seconds);
+    device.region_times[commands[i].region].add(seconds);
     if (kernel) kernel->learn(seconds, commands[i].items);
   }
 }
@@ -241,7 +244,9 @@ void Recorder::Implementation::dispatch_range(Kernel::Implementation& kernel, co
   vkCmdPushConstants(device.commands, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes,
                      push);
   const std::uint64_t groups = divide_up(items, kernel.reflection.workgroup_size);
+  device.begin_label(kernel.name.c_str());
   vkCmdDispatch(device.commands, static_cast<std::uint32_t>(groups), 1, 1);
+  device.end_label();
   const double expected = kernel.seconds_per_item > 0.0
                               ? kernel.seconds_per_item * static_cast<double>(items)
                               : device.options.dispatch_milliseconds * 1e-3;

@@ -40,6 +40,7 @@ struct Recorder::Implementation {
   struct Command {
     Kernel::Implementation* kernel;  // null: a copy or fill
     std::uint64_t items;
+    const char* region;
   };
   struct Read {
     void* destination;
@@ -47,7 +48,9 @@ struct Recorder::Implementation {
   };
 
   void create_pools();
+  /// A new submission, within the regions that are open.
   void begin();
+  /// Ends the regions in this command buffer, though they may go on in the next, and submits it.
   void flush();
   void finish_command(Kernel::Implementation* kernel, std::uint64_t items, double expected_seconds);
   void prepare_command();

@@ -1,6 +1,7 @@
 #include "estimator.hpp"
 
 #include "ppm_shaders.hpp"
+#include "region.hpp"
 #include "shared/layout.h"
 
 namespace ppm::render {
@@ -41,6 +42,7 @@ gpu::BindingTable Estimator::table_for(const HitTile& tile) const {
 Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& grid) {
   gpu::BindingTable table = table_for(tile);
   grid.bind(table);
+  const gpu::Region region(device_, "gather");
   shared::GatherPush push{};
   push.grid = grid.constants();
   push.cursor_capacity = static_cast<std::uint32_t>(cursor_capacity_);
@@ -63,6 +65,7 @@ Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& gri
 }
 
 void Estimator::update(std::span<const HitTile> tiles, float alpha) {
+  const gpu::Region region(device_, "update");
   device_.run([&](gpu::Recorder& recorder) {
     recorder.fill(histogram_buffer_, 0, histogram_buffer_.bytes());
     for (const HitTile& tile : tiles) {
@@ -79,6 +82,7 @@ void Estimator::clear_sums(std::span<const HitTile> tiles) {
 }
 
 std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t samples, float scale) {
+  const gpu::Region region(device_, "resolve");
   gpu::Buffer pixels(device_, "pixels", tile.pixels * sizeof(glm::vec4), gpu::Usage::storage);
   gpu::BindingTable table = table_for(tile);
   table.set(PPM_BIND_PIXELS, pixels);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ppm_shaders.hpp"
+#include "region.hpp"
 #include "shared/grid.h"
 
 namespace ppm::render {
@@ -72,6 +73,7 @@ void PhotonGrid::build(gpu::Device& device, const gpu::BindingTable& photon_tabl
   bind(table);
   table.set(PPM_BIND_CELL_COUNT, cell_count_);
   const shared::GridPush push{0, 0, constants_};
+  const gpu::Region region(device, "grid");
   device.run([&](gpu::Recorder& recorder) {
     recorder.dispatch(count_, table, push, photons);
     scan_.record(recorder, cell_count_, cell_start_, entries);

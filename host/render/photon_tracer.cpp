@@ -1,6 +1,7 @@
 #include "photon_tracer.hpp"
 
 #include "ppm_shaders.hpp"
+#include "region.hpp"
 #include "shared/layout.h"
 #include "shared/random.h"
 
@@ -42,6 +43,7 @@ void PhotonTracer::bind_photons(gpu::BindingTable& table) const {
 PhotonTracer::Result PhotonTracer::trace(std::uint32_t stream, std::uint32_t pass,
                                          std::uint32_t first_path, std::uint32_t paths,
                                          const std::function<bool()>& interrupted) {
+  const gpu::Region region(device_, "photons");
   shared::PhotonPush push{};
   push.pass = pass;
   push.emit_first = first_path;

@@ -5,6 +5,7 @@
 
 #include "eye_pass.hpp"
 #include "failure.hpp"
+#include "region.hpp"
 #include "shared/camera.h"
 #include "shared/random.h"
 #include "stopwatch.hpp"
@@ -72,6 +73,7 @@ bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
 
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
+  const gpu::Region region(device_, "eye");
   EyePass eye(device_, table_, settings_);
   const std::uint32_t all_pixels = settings_.width * settings_.height;
   std::uint32_t pixels = 0;
@@ -100,6 +102,7 @@ bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
 }
 
 bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
+  const gpu::Region region(device_, "pilot");
   const auto seconds_before = statistics_.seconds;
   const double start = clock_seconds();
   const bool automatic = settings_.radius_mode == RadiusMode::automatic;

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "buffer.hpp"
@@ -16,6 +18,7 @@
 #include "kernel.hpp"
 #include "ppm_gpu_test_shaders.hpp"
 #include "recorder.hpp"
+#include "region.hpp"
 
 namespace ppm::tests {
 namespace {
@@ -283,6 +286,74 @@ TEST_F(GpuRoom, TimesAddUpToNoMoreThanTheClock) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   EXPECT_GT(seconds() - before, 0.0);
   EXPECT_LE(seconds() - before, wall.count());
+}
+
+// What the driver is told of regions, in order; an empty text is an end.
+std::vector<std::string> labels;
+VKAPI_ATTR void VKAPI_CALL note_begin(VkCommandBuffer, const VkDebugUtilsLabelEXT* label) {
+  labels.emplace_back(label->pLabelName);
+}
+VKAPI_ATTR void VKAPI_CALL note_end(VkCommandBuffer) {
+  labels.emplace_back();
+}
+
+// Every submission opens the regions anew and ends them: 3000 steps are more than one takes.
+TEST_F(GpuRoom, RegionsAreBalancedInEverySubmission) {
+  constexpr std::uint32_t kSteps = 3000;
+  gpu::Device labelled({.selector = device().description().name, .validation = true});
+  const Kernel kernel(labelled, shaders::gpu_count);
+  Buffer words(labelled, "words", 64, Usage::storage);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, words);
+  const auto run = [&] {
+    const gpu::Region whole(labelled, "whole");
+    labelled.run([&](Recorder& recorder) {
+      recorder.fill(words, 0, 64);
+      const gpu::Region part(labelled, "part");
+      for (std::uint32_t i = 0; i < kSteps; ++i) recorder.dispatch(kernel, table, RangePush{}, 16);
+    });
+  };
+  run();  // with the layer's own checks
+  labels.clear();
+  labelled.implementation().cmd_begin_label = note_begin;
+  labelled.implementation().cmd_end_label = note_end;
+  run();
+
+  std::vector<std::string> open;
+  std::size_t submissions = 0, parts = 0, dispatches = 0;
+  for (const std::string& label : labels) {
+    if (label.empty()) {
+      ASSERT_FALSE(open.empty());
+      open.pop_back();
+      continue;
+    }
+    const std::vector<std::string> expected = label == "whole" ? std::vector<std::string>{}
+                                              : label == "part"
+                                                  ? std::vector<std::string>{"whole"}
+                                                  : std::vector<std::string>{"whole", "part"};
+    ASSERT_EQ(open, expected) << "around " << label;
+    submissions += label == "whole";
+    parts += label == "part";
+    dispatches += label == "gpu_count";
+    open.push_back(label);
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_GT(submissions, 2u);
+  EXPECT_EQ(parts, submissions);
+  EXPECT_EQ(dispatches, kSteps);
+  EXPECT_EQ(labelled.region_times().at("part").dispatches, 2 * kSteps);
+  EXPECT_EQ(labelled.region_times().at("whole").dispatches, 2u);
+}
+
+TEST_F(GpuRoom, AnExceptionInARegionLeavesNoneOpen) {
+  const auto stopped = [&] {
+    const gpu::Region region(device(), "stopped");
+    device().run([](Recorder&) { throw std::runtime_error("stopped"); });
+  };
+  EXPECT_THROW(stopped(), std::runtime_error);
+  EXPECT_TRUE(device().implementation().regions.empty());
+  const Kernel kernel(device(), shaders::gpu_count);
+  EXPECT_EQ(visits(device(), kernel, 100)[99], 1u);
 }
 
 TEST_F(GpuRoom, MemoryAccountReturnsToWhereItWas) {
