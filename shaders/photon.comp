@@ -120,5 +120,7 @@ void main() {
   if (alive) {
     uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);
     if (slot < push.path_capacity) paths_out[slot] = path;
+  } else {
+    atomicAdd(counters[PPM_COUNTER_PHOTON_RAYS], (path.state & 0xffffu) + 1u);  // one before each event, and the last
   }
 }

@@ -37,12 +37,22 @@ std::vector<DeviceDescription> list_devices();
 
 class Recorder;
 
-/// GPU time by label (kernel name, "copy"; region): seconds and commands. Filled by Device::run.
+/// GPU time by label (kernel name, "copy"; region): seconds, commands, and the items that kernels
+/// ran over. Filled by Device::run.
 struct KernelTime {
   double seconds = 0.0;
   std::uint64_t dispatches = 0;
-  void add(double more) {
-    seconds += more;
+  std::uint64_t items = 0;
+  /// Of the first command, during which some drivers compile; counted above, too.
+  double first_seconds = 0.0;
+  std::uint64_t first_items = 0;
+  void add(double more_seconds, std::uint64_t more_items) {
+    if (dispatches == 0) {
+      first_seconds = more_seconds;
+      first_items = more_items;
+    }
+    seconds += more_seconds;
+    items += more_items;
     ++dispatches;
   }
 };

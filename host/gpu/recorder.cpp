@@ -164,9 +164,10 @@ void Recorder::Implementation::add_times() {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const double seconds = static_cast<double>((ticks[i + 1] - ticks[i]) & mask) * seconds_per_tick;
     Kernel::Implementation* const kernel = commands[i].kernel;
-    device.times[kernel ? kernel->name : "copy"].add(seconds);
-    device.region_times[commands[i].region].add(seconds);
-    if (kernel) kernel->learn(seconds, commands[i].items);
+    const std::uint64_t items = commands[i].items;
+    device.times[kernel ? kernel->name : "copy"].add(seconds, items);
+    device.region_times[commands[i].region].add(seconds, items);
+    if (kernel) kernel->learn(seconds, items);
   }
 }
 

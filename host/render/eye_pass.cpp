@@ -83,8 +83,10 @@ EyePass::Result EyePass::trace_paths(std::uint32_t first_pixel, std::uint32_t pi
   push.hit_capacity = static_cast<std::uint32_t>(capacity_);
   push.path_capacity = static_cast<std::uint32_t>(capacity_);
   push.split_weight = kSplitWeight;
+  rays_ = 0;
   for (std::uint32_t round = 0; alive > 0; ++round) {
     if (interrupted()) return Result::interrupted;
+    rays_ += alive;
     push.generate = round == 0 ? 1 : 0;
     table_.set(PPM_BIND_EYE_IN, queue_[round % 2]);
     table_.set(PPM_BIND_EYE_OUT, queue_[(round + 1) % 2]);

@@ -31,6 +31,7 @@ class EyePass {
                const std::function<bool()>& interrupted, HitTile& tile);
 
   const Counters& counters() const { return counters_; }  ///< of the last trace
+  std::uint64_t rays() const { return rays_; }            ///< searches for the closest hit, idem
 
  private:
   Result trace_paths(std::uint32_t first_pixel, std::uint32_t pixels,
@@ -47,6 +48,7 @@ class EyePass {
   ExclusiveScan scan_;
   gpu::Buffer queue_[2], staged_hits_, staged_keys_, group_count_, order_list_;
   Counters counters_;
+  std::uint64_t rays_ = 0;
 };
 
 }  // namespace ppm::render

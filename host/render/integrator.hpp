@@ -47,6 +47,7 @@ struct Picture {
 struct Statistics {
   std::uint64_t triangles = 0, lights = 0, hit_points = 0, tiles = 0;
   std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
+  std::uint64_t eye_rays = 0, photon_rays = 0;  ///< searches for the closest hit; not the pilot's
   double initial_radius_min = 0.0, initial_radius_median = 0.0,
          initial_radius_max = 0.0;  ///< world units
   std::uint64_t paths_cut = 0;

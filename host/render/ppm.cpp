@@ -95,6 +95,7 @@ bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
     tally.add(eye.counters());
     record(tally);
     statistics_.hit_points += tile.hits;
+    statistics_.eye_rays += eye.rays();
     tiles_.push_back(std::move(tile));
     statistics_.tiles = tiles_.size();
   }
@@ -240,10 +241,12 @@ void PpmIntegrator::Tally::add(const Counters& counters) {
   paths_cut += counters[PPM_COUNTER_PATHS_CUT];
   non_finite += counters[PPM_COUNTER_NON_FINITE];
   clamped += counters[PPM_COUNTER_CLAMPED];
+  photon_rays += counters[PPM_COUNTER_PHOTON_RAYS];
 }
 
 void PpmIntegrator::record(const Tally& tally) {
   statistics_.photons_stored += tally.photons_stored;
+  statistics_.photon_rays += tally.photon_rays;
   statistics_.paths_cut += tally.paths_cut;
   statistics_.rejected["non_finite"] += tally.non_finite;
   statistics_.rejected["clamped"] += tally.clamped;

@@ -40,7 +40,8 @@ class PpmIntegrator final : public Integrator {
 
   /// What a pass or tile adds to the statistics once it is complete.
   struct Tally {
-    std::uint64_t photons_stored = 0, paths_cut = 0, non_finite = 0, clamped = 0, overflow = 0;
+    std::uint64_t photons_stored = 0, photon_rays = 0;
+    std::uint64_t paths_cut = 0, non_finite = 0, clamped = 0, overflow = 0;
     void add(const Counters& counters);
   };
   void record(const Tally& tally);

@@ -134,6 +134,7 @@ struct SceneConstants {
 #define PPM_COUNTER_OVERFLOW 7        // fixed-point terms or sums out of range
 #define PPM_COUNTER_MAX_PIXEL_HITS 8  // most hit points of one pixel
 #define PPM_COUNTER_UNDECIDED 9       // hit points for which the pilot has no radius yet
+#define PPM_COUNTER_PHOTON_RAYS 10    // segments of the photon paths that have ended
 #define PPM_COUNTER_COUNT 16
 
 // ---- Photon pass
