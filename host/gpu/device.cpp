@@ -22,6 +22,7 @@ void Device::Implementation::open(const DeviceOptions& chosen) {
   options = chosen;
   instance = std::make_unique<Instance>(options.validation);
   physical = choose(describe_all(*instance), options.selector);
+  profile = device_profile(physical.properties.deviceType);
   vkGetPhysicalDeviceMemoryProperties(physical.handle, &memory);
   create_device();
   create_commands();
@@ -155,6 +156,10 @@ Device::~Device() = default;
 
 const DeviceDescription& Device::description() const {
   return implementation_->physical.description;
+}
+
+const DeviceProfile& Device::profile() const {
+  return implementation_->profile;
 }
 
 std::uint64_t Device::max_storage_bytes() const {

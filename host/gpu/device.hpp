@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "device_profile.hpp"
+
 namespace ppm::gpu {
 
 /// One physical device as `ppm-vk devices` prints it.
@@ -67,6 +69,7 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   const DeviceDescription& description() const;
+  const DeviceProfile& profile() const;
   std::uint64_t max_storage_bytes() const;  ///< largest range a storage buffer may have
   std::uint64_t max_texels() const;         ///< largest uniform texel buffer, in 16-byte texels
 

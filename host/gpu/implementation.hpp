@@ -12,6 +12,7 @@
 
 #include "buffer.hpp"
 #include "device.hpp"
+#include "device_profile.hpp"
 #include "instance.hpp"
 #include "kernel.hpp"
 #include "physical_device.hpp"
@@ -48,6 +49,7 @@ struct Device::Implementation {
   DeviceOptions options;
   std::unique_ptr<Instance> instance;
   PhysicalDevice physical;
+  DeviceProfile profile;
   VkPhysicalDeviceMemoryProperties memory{};
   VkDevice handle = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
@@ -115,6 +117,8 @@ struct Kernel::Implementation {
  private:
   void check_limits() const;
   void create_layouts();
+  /// What the device's profile says about the constants that the shader leaves to it.
+  void add_profile(std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
   void create_pipeline(const Shader& shader,
                        const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
 };

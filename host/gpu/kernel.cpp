@@ -28,7 +28,20 @@ void Kernel::Implementation::open(
   reflection = reflect(shader.words, name);
   check_limits();
   create_layouts();
-  create_pipeline(shader, constants);
+  auto all = constants;
+  add_profile(all);
+  create_pipeline(shader, all);
+}
+
+void Kernel::Implementation::add_profile(
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants) {
+  const auto add = [&](std::uint32_t id, std::uint32_t value) {
+    if (reflection.constants.contains(id)) constants.emplace_back(id, value);
+  };
+  add(PPM_SPEC_ALTERNATE_HALVES, device.profile.alternate_halves ? 1 : 0);
+  if (!reflection.constants.contains(PPM_SPEC_WORKGROUP_SIZE)) return;
+  reflection.workgroup_size = device.profile.workgroup_size;
+  add(PPM_SPEC_WORKGROUP_SIZE, reflection.workgroup_size);
 }
 
 void Kernel::Implementation::check_limits() const {

@@ -10,7 +10,6 @@ namespace ppm::gpu {
 namespace {
 
 constexpr std::uint64_t kMaxGroups = 65535;   // what every device grants on an axis
-constexpr std::uint64_t kFirstGuess = 16384;  // items of a kernel that has never run
 constexpr std::uint64_t kFewestItems = 1024;  // below, the cost of a dispatch prevails
 constexpr double kSubmissionSeconds = 0.5;    // drivers give up on submissions of several seconds
 constexpr std::uint32_t kMaxCommands = 1024;  // of one submission
@@ -48,8 +47,9 @@ void host_barrier(VkCommandBuffer commands) {
 }
 
 std::uint64_t items_per_dispatch(std::uint64_t count, std::uint32_t workgroup_size,
-                                 double seconds_per_item, double milliseconds) {
-  std::uint64_t limit = kFirstGuess;
+                                 double seconds_per_item, double milliseconds,
+                                 std::uint64_t first_guess) {
+  std::uint64_t limit = first_guess;
   const std::uint64_t most = kMaxGroups * workgroup_size;
   if (seconds_per_item > 0.0) {
     const double wanted = milliseconds * 1e-3 / seconds_per_item;
@@ -225,7 +225,7 @@ void Recorder::Implementation::dispatch(Kernel::Implementation& kernel, const Bi
   if (count == 0) return;
   const std::uint64_t step =
       items_per_dispatch(count, kernel.reflection.workgroup_size, kernel.seconds_per_item,
-                         device.options.dispatch_milliseconds);
+                         device.options.dispatch_milliseconds, device.profile.first_guess_items);
   for (std::uint64_t first = 0; first < count; first += step) {
     const std::uint64_t items = std::min(step, count - first);
     const std::uint32_t range[2] = {static_cast<std::uint32_t>(first),

@@ -17,10 +17,12 @@ void full_barrier(VkCommandBuffer commands);
 /// What kernels and copies wrote becomes visible to the host.
 void host_barrier(VkCommandBuffer commands);
 
-/// Items of one dispatch: as many as `milliseconds` allow by `seconds_per_item` (0: not known), at
-/// least a few, at most what 65535 workgroups hold; `count` cut evenly, in whole workgroups.
+/// Items of one dispatch: as many as `milliseconds` allow by `seconds_per_item` (0: not known, then
+/// `first_guess`), at least a few, at most what 65535 workgroups hold; `count` cut evenly, in whole
+/// workgroups.
 std::uint64_t items_per_dispatch(std::uint64_t count, std::uint32_t workgroup_size,
-                                 double seconds_per_item, double milliseconds);
+                                 double seconds_per_item, double milliseconds,
+                                 std::uint64_t first_guess);
 
 /// One for each device. Holds as many commands, descriptors and bytes read back as its pools do;
 /// whatever more a run records goes to another submission.

@@ -38,6 +38,7 @@ enum Op : std::uint32_t {
   kExecutionModeId = 331,
 };
 enum Decoration : std::uint32_t {
+  kSpecId = 1,
   kArrayStride = 6,
   kMatrixStride = 7,
   kBinding = 33,
@@ -71,6 +72,7 @@ struct Module {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::uint32_t, std::uint32_t>>
       member_decorations;
   std::uint32_t workgroup_size = 1;
+  std::set<std::uint32_t> constants;
 };
 
 std::uint32_t last_word(Instruction instruction) {
@@ -131,6 +133,7 @@ void note_declaration(Module& module, Instruction i, const std::string& name) {
       break;
     case kDecorate:
       module.decorations[i[1]][i[2]] = last_word(i);
+      if (i[2] == kSpecId) module.constants.insert(i[3]);
       break;
     case kMemberDecorate:
       module.member_decorations[{i[1], i[2]}][i[3]] = last_word(i);
@@ -210,6 +213,7 @@ Reflection reflect(std::span<const std::uint32_t> words, const std::string& name
   const Module module = parse(words, name);
   Reflection reflection;
   reflection.workgroup_size = module.workgroup_size;
+  reflection.constants = module.constants;
   for (const Instruction variable : module.variables) {
     const std::uint32_t id = variable[2], storage_class = variable[3];
     const std::uint32_t type = module.definitions.at(variable[1])[3];

@@ -7,15 +7,17 @@
 #include "shared/bindings.h"
 #include "shared/layout.h"
 
-layout(local_size_x = PPM_WORKGROUP_SIZE) in;
+layout(local_size_x = PPM_WORKGROUP_SIZE, local_size_x_id = PPM_SPEC_WORKGROUP_SIZE) in;
+layout(constant_id = PPM_SPEC_ALTERNATE_HALVES) const bool kAlternateHalves = true;
 
 // Lavapipe hands each of its threads one contiguous half of the workgroups and steals nothing. Work that is dear in one
 // part of the range is shared evenly when consecutive blocks of items alternate between the halves.
 uint item_of_invocation(uint first) {
   uint group = gl_WorkGroupID.x;
   uint half_count = (gl_NumWorkGroups.x + 1u) / 2u;
-  uint block = group < half_count ? 2u * group : 2u * (group - half_count) + 1u;
-  return first + block * PPM_WORKGROUP_SIZE + gl_LocalInvocationID.x;
+  uint block = group;
+  if (kAlternateHalves) block = group < half_count ? 2u * group : 2u * (group - half_count) + 1u;
+  return first + block * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
 #endif

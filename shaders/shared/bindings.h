@@ -62,4 +62,9 @@
 
 #define PPM_BINDING_LIMIT 48
 
+// Specialisation constants that the device's profile sets in every kernel that declares them
+// (host/gpu/device_profile.hpp). Kernels' own ones are below.
+#define PPM_SPEC_WORKGROUP_SIZE 100    // invocations of a workgroup
+#define PPM_SPEC_ALTERNATE_HALVES 101  // bool: see shaders/lib/invocation.glsl
+
 #endif  // PPM_SHARED_BINDINGS_H

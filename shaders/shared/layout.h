@@ -5,8 +5,7 @@
 
 #include "shared/lang.h"
 
-// Invocations of a workgroup, all kernels. 8 to 256 cost the same on lavapipe; GPUs want 32 or
-// more.
+// Invocations of a workgroup unless the device's profile says otherwise.
 #define PPM_WORKGROUP_SIZE 64
 
 PPM_NAMESPACE_BEGIN

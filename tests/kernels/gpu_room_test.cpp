@@ -243,7 +243,10 @@ TEST_F(GpuRoom, PushAndSpecialisationConstantsArrive) {
 }
 
 TEST(ItemsPerDispatch, KeepsWithinTheTimeAndTheGroups) {
-  using gpu::items_per_dispatch;
+  const auto items_per_dispatch = [](std::uint64_t count, std::uint32_t group, double seconds,
+                                     double milliseconds) {
+    return gpu::items_per_dispatch(count, group, seconds, milliseconds, 16384);
+  };
   // Unknown kernels start with at most 16384 items, cut evenly: 100000 / 7 = 14286, in whole groups
   // 14336.
   EXPECT_EQ(items_per_dispatch(100000, 64, 0.0, 50.0), 14336u);
@@ -255,6 +258,40 @@ TEST(ItemsPerDispatch, KeepsWithinTheTimeAndTheGroups) {
   EXPECT_EQ(items_per_dispatch(1024 * 64, 64, 1.0, 0.001), 1024u);
   EXPECT_EQ(items_per_dispatch(std::uint64_t{1} << 31, 64, 1e-15, 50.0), 65409u * 64u);
   EXPECT_EQ(items_per_dispatch(65535u * 64u, 64, 1e-15, 50.0), 65535u * 64u);
+}
+
+// The workgroup's size and the order of items are the device's choice: no result depends on them.
+TEST_F(GpuRoom, TheProfilesConstantsReachTheKernels) {
+  constexpr std::uint32_t kItems = 1000;
+  const std::vector<std::uint32_t> once(kItems, 1);
+  for (const std::uint32_t size : {32u, 64u, 256u}) {
+    for (const bool alternate : {false, true}) {
+      gpu::Device other({.selector = device().description().name, .validation = true});
+      other.implementation().profile.workgroup_size = size;
+      other.implementation().profile.alternate_halves = alternate;
+      const Kernel kernel(other, shaders::gpu_profile);
+      EXPECT_EQ(kernel.implementation().reflection.workgroup_size, size);
+      Buffer results(other, "results", (2 + kItems) * 4, Usage::storage);
+      BindingTable table;
+      table.set(PPM_BIND_TEST_0, results);
+      other.run([&](Recorder& recorder) {
+        recorder.fill(results, 0, (2 + kItems) * 4);
+        recorder.dispatch(kernel, table, RangePush{}, kItems);
+      });
+      const auto seen = results.download<std::uint32_t>(2 + kItems);
+      EXPECT_EQ(seen[0], size);
+      EXPECT_EQ(seen[1], alternate ? 1u : 0u);
+      EXPECT_TRUE(std::equal(once.begin(), once.end(), seen.begin() + 2));
+      EXPECT_EQ(other.validation_messages(), 0u);
+    }
+  }
+}
+
+TEST(DeviceProfile, LavapipeTakesOnePassAtATimeAndGpusMany) {
+  EXPECT_EQ(gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_CPU).passes_in_flight, 1u);
+  EXPECT_TRUE(gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_CPU).alternate_halves);
+  EXPECT_GE(gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU).passes_in_flight, 16u);
+  EXPECT_FALSE(gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU).alternate_halves);
 }
 
 // A device that gives a dispatch next to no time: the same visits in ranges of 1024.
