@@ -42,6 +42,15 @@ class Kernel {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// How many items a dispatch has, as words that earlier commands write.
+struct DeviceCount {
+  const Buffer& buffer;        ///< Usage::storage, or storage_and_texels
+  std::uint32_t word = 0;      ///< index of the count
+  std::uint64_t most = 0;      ///< a larger count is taken for this
+  std::uint64_t expected = 0;  ///< a guess, for cutting into ranges; the last takes what is more
+  std::uint32_t rows = 1;      ///< row y (gl_WorkGroupID.y) has the count words[word + y]
+};
+
 /// Commands of one submission, in order: each sees the results of those before it (barriers are
 /// implied).
 class Recorder {
@@ -55,6 +64,16 @@ class Recorder {
   void dispatch(const Kernel& kernel, const BindingTable& table, Push push, std::uint64_t count) {
     static_assert(std::is_trivially_copyable_v<Push> && sizeof(Push) <= 128);
     dispatch_bytes(kernel, table, &push, sizeof(Push), count);
+  }
+
+  /// The same over items [0, count) with a count that only the device knows. Ranges may reach
+  /// beyond it (`first + count` is no bound for the last), and in a row beyond that row's: the
+  /// kernel must compare its items with the count, too.
+  template <class Push>
+  void dispatch(const Kernel& kernel, const BindingTable& table, Push push,
+                const DeviceCount& count) {
+    static_assert(std::is_trivially_copyable_v<Push> && sizeof(Push) <= 128);
+    dispatch_counted(kernel, table, &push, sizeof(Push), count);
   }
 
   void fill(const Buffer& buffer, std::uint32_t word, std::uint64_t bytes,
@@ -71,6 +90,8 @@ class Recorder {
  private:
   void dispatch_bytes(const Kernel& kernel, const BindingTable& table, void* push,
                       std::size_t push_bytes, std::uint64_t count);
+  void dispatch_counted(const Kernel& kernel, const BindingTable& table, void* push,
+                        std::size_t push_bytes, const DeviceCount& count);
   Implementation& implementation_;
 };
 

@@ -9,7 +9,6 @@
 namespace ppm::gpu {
 namespace {
 
-constexpr std::uint64_t kMaxGroups = 65535;   // what every device grants on an axis
 constexpr std::uint64_t kFewestItems = 1024;  // below, the cost of a dispatch prevails
 constexpr double kSubmissionSeconds = 0.5;    // drivers give up on submissions of several seconds
 constexpr std::uint32_t kMaxCommands = 1024;  // of one submission
@@ -18,11 +17,12 @@ constexpr std::uint32_t kMaxDescriptors = 8192;  // of each kind and one submiss
 constexpr VkDeviceSize kReadbackBytes = VkDeviceSize{1} << 20;
 constexpr std::uint64_t kLongestRead = 65536;
 
-constexpr VkPipelineStageFlags kDeviceStages =
-    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkPipelineStageFlags kDeviceStages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                               VK_PIPELINE_STAGE_TRANSFER_BIT |
+                                               VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
 constexpr VkAccessFlags kWrites = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags kReads =
-    VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+constexpr VkAccessFlags kReads = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                                 VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
 
 void barrier(VkCommandBuffer commands, VkPipelineStageFlags to_stages, VkAccessFlags to_accesses) {
   VkMemoryBarrier memory{};
@@ -30,10 +30,6 @@ void barrier(VkCommandBuffer commands, VkPipelineStageFlags to_stages, VkAccessF
   memory.srcAccessMask = kWrites;
   memory.dstAccessMask = to_accesses;
   vkCmdPipelineBarrier(commands, kDeviceStages, to_stages, 0, 1, &memory, 0, nullptr, 0, nullptr);
-}
-
-std::uint64_t divide_up(std::uint64_t a, std::uint64_t b) {
-  return (a + b - 1) / b;
 }
 
 }  // namespace
@@ -65,6 +61,7 @@ std::uint64_t items_per_dispatch(std::uint64_t count, std::uint32_t workgroup_si
 void Recorder::Implementation::open() {
   create_pools();
   readback.create(device, "read back", kReadbackBytes, 0, Memory::host);
+  open_counted();
 }
 
 void Recorder::Implementation::create_pools() {
@@ -95,6 +92,7 @@ Recorder::Implementation::~Implementation() {
 }
 
 void Recorder::Implementation::run(const std::function<void(Recorder&)>& record) {
+  next_slot = 0;
   begin();
   Recorder recorder(*this);
   try {
@@ -124,6 +122,7 @@ void Recorder::Implementation::begin() {
 void Recorder::Implementation::flush() {
   device.recording = false;
   for (std::size_t i = 0; i < device.regions.size(); ++i) device.end_label();
+  read_slots();
   device.submit_and_wait();
   for (const Read& read : reads) {
     std::memcpy(read.destination, readback.mapped() + read.offset, read.bytes);
@@ -143,8 +142,8 @@ void Recorder::Implementation::prepare_command() {
 }
 
 void Recorder::Implementation::finish_command(Kernel::Implementation* kernel, std::uint64_t items,
-                                              double seconds) {
-  commands.push_back({kernel, items, device.regions.empty() ? "" : device.regions.back()});
+                                              double seconds, std::uint32_t slot) {
+  commands.push_back({kernel, items, device.regions.empty() ? "" : device.regions.back(), slot});
   expected_seconds += seconds;
   vkCmdWriteTimestamp(device.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps,
                       static_cast<std::uint32_t>(commands.size()));
@@ -164,17 +163,17 @@ void Recorder::Implementation::add_times() {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const double seconds = static_cast<double>((ticks[i + 1] - ticks[i]) & mask) * seconds_per_tick;
     Kernel::Implementation* const kernel = commands[i].kernel;
-    const std::uint64_t items = commands[i].items;
-    device.times[kernel ? kernel->name : "copy"].add(seconds, items);
+    const bool counted = commands[i].slot != kNoSlot;
+    const std::uint64_t items = counted ? counted_items(commands[i]) : commands[i].items;
     device.region_times[commands[i].region].add(seconds, items);
+    if (counted && items == 0) continue;  // nothing ran, and nothing is learnt
+    device.times[kernel ? kernel->name : "copy"].add(seconds, items);
     if (kernel) kernel->learn(seconds, items);
   }
 }
 
-VkDescriptorSet Recorder::Implementation::make_set(const Kernel::Implementation& kernel,
-                                                   const BindingTable& table) {
-  const auto& bindings = kernel.reflection.bindings;
-  const auto count = static_cast<std::uint32_t>(bindings.size());
+VkDescriptorSet Recorder::Implementation::allocate_set(const Kernel::Implementation& kernel) {
+  const auto count = static_cast<std::uint32_t>(kernel.reflection.bindings.size());
   if (sets == kMaxSets || set_descriptors + count > kMaxDescriptors) {
     flush();
     begin();
@@ -188,7 +187,14 @@ VkDescriptorSet Recorder::Implementation::make_set(const Kernel::Implementation&
   PPM_VK_CALL(device.name(), vkAllocateDescriptorSets, device.handle, &info, &set);
   ++sets;
   set_descriptors += count;
+  return set;
+}
 
+VkDescriptorSet Recorder::Implementation::make_set(const Kernel::Implementation& kernel,
+                                                   const BindingTable& table) {
+  const auto& bindings = kernel.reflection.bindings;
+  const auto count = static_cast<std::uint32_t>(bindings.size());
+  const VkDescriptorSet set = allocate_set(kernel);
   std::vector<VkDescriptorBufferInfo> ranges(count);
   std::vector<VkWriteDescriptorSet> writes;
   for (const auto& [binding, type] : bindings) {
@@ -213,45 +219,58 @@ VkDescriptorSet Recorder::Implementation::make_set(const Kernel::Implementation&
   return set;
 }
 
-void Recorder::Implementation::dispatch(Kernel::Implementation& kernel, const BindingTable& table,
-                                        std::byte* push, std::size_t push_bytes,
-                                        std::uint64_t count) {
+void Recorder::Implementation::check_push(const Kernel::Implementation& kernel,
+                                          std::size_t push_bytes) const {
   PPM_ASSERT(push_bytes == kernel.reflection.push_bytes,
              "kernel " + kernel.name + " has a push block of " +
                  std::to_string(kernel.reflection.push_bytes) + " bytes, not " +
                  std::to_string(push_bytes));
+}
+
+void Recorder::Implementation::dispatch(Kernel::Implementation& kernel, const BindingTable& table,
+                                        std::byte* push, std::size_t push_bytes,
+                                        std::uint64_t count) {
+  check_push(kernel, push_bytes);
   PPM_ASSERT(count <= UINT32_MAX,
              "kernel " + kernel.name + ": " + std::to_string(count) + " items");
   if (count == 0) return;
+  const std::uint32_t group = kernel.reflection.workgroup_size;
   const std::uint64_t step =
-      items_per_dispatch(count, kernel.reflection.workgroup_size, kernel.seconds_per_item,
+      items_per_dispatch(count, group, kernel.seconds_per_item,
                          device.options.dispatch_milliseconds, device.profile.first_guess_items);
   for (std::uint64_t first = 0; first < count; first += step) {
     const std::uint64_t items = std::min(step, count - first);
     const std::uint32_t range[2] = {static_cast<std::uint32_t>(first),
                                     static_cast<std::uint32_t>(items)};
     std::memcpy(push, range, sizeof range);
-    prepare_command();
-    const VkDescriptorSet set = make_set(kernel, table);
-    vkCmdBindDescriptorSets(device.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1,
-                            &set, 0, nullptr);
-    dispatch_range(kernel, push, static_cast<std::uint32_t>(push_bytes), items);
+    bind(kernel, table, push, static_cast<std::uint32_t>(push_bytes));
+    vkCmdDispatch(device.commands, static_cast<std::uint32_t>(divide_up(items, group)), 1, 1);
+    device.end_label();
+    finish_command(&kernel, items, expected_time(kernel, items));
   }
 }
 
-void Recorder::Implementation::dispatch_range(Kernel::Implementation& kernel, const std::byte* push,
-                                              std::uint32_t push_bytes, std::uint64_t items) {
+void Recorder::Implementation::bind(const Kernel::Implementation& kernel, const BindingTable& table,
+                                    const std::byte* push, std::uint32_t push_bytes) {
+  prepare_command();
+  bind_set(kernel, make_set(kernel, table), push, push_bytes);
+}
+
+void Recorder::Implementation::bind_set(const Kernel::Implementation& kernel, VkDescriptorSet set,
+                                        const std::byte* push, std::uint32_t push_bytes) {
+  device.begin_label(kernel.name.c_str());
+  vkCmdBindDescriptorSets(device.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1,
+                          &set, 0, nullptr);
   vkCmdBindPipeline(device.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
   vkCmdPushConstants(device.commands, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes,
                      push);
-  const std::uint64_t groups = divide_up(items, kernel.reflection.workgroup_size);
-  device.begin_label(kernel.name.c_str());
-  vkCmdDispatch(device.commands, static_cast<std::uint32_t>(groups), 1, 1);
-  device.end_label();
-  const double expected = kernel.seconds_per_item > 0.0
-                              ? kernel.seconds_per_item * static_cast<double>(items)
-                              : device.options.dispatch_milliseconds * 1e-3;
-  finish_command(&kernel, items, expected);
+}
+
+// By experience; of a kernel that has never run, the time a dispatch may take.
+double Recorder::Implementation::expected_time(const Kernel::Implementation& kernel,
+                                               std::uint64_t items) const {
+  if (kernel.seconds_per_item > 0.0) return kernel.seconds_per_item * static_cast<double>(items);
+  return items > 0 ? device.options.dispatch_milliseconds * 1e-3 : 0.0;
 }
 
 void Recorder::Implementation::fill(const Buffer& buffer, std::uint32_t word, std::uint64_t bytes,
@@ -315,6 +334,12 @@ void Recorder::dispatch_bytes(const Kernel& kernel, const BindingTable& table, v
                               std::size_t push_bytes, std::uint64_t count) {
   implementation_.dispatch(kernel.implementation(), table, static_cast<std::byte*>(push),
                            push_bytes, count);
+}
+
+void Recorder::dispatch_counted(const Kernel& kernel, const BindingTable& table, void* push,
+                                std::size_t push_bytes, const DeviceCount& count) {
+  implementation_.dispatch_counted(kernel.implementation(), table, static_cast<std::byte*>(push),
+                                   push_bytes, count);
 }
 
 }  // namespace ppm::gpu

@@ -54,6 +54,7 @@ void use(gpu::Device& device) {
   table.set(PPM_BIND_TEST_0, words);
   std::uint32_t seen = 0;
   device.run([&](Recorder& recorder) {
+    recorder.dispatch(kernel, table, RangePush{}, gpu::DeviceCount{words, 0, 64, 64});  // of none
     recorder.fill(words, 5, 2048);
     recorder.dispatch(kernel, table, RangePush{}, 1024);
     recorder.copy(words, words, 4, 0, 4092);

@@ -70,6 +70,90 @@ TEST_F(GpuRoom, VisitsEveryItemOnce) {
   }
 }
 
+struct CountedPush {
+  std::uint32_t first = 0, count = 0, stride = 0;
+};
+
+// The counts are written on the device, larger or smaller than expected, and in rows.
+TEST_F(GpuRoom, VisitsAsManyItemsAsTheDeviceCounted) {
+  gpu::Device hasty(
+      {.selector = device().description().name, .validation = true, .dispatch_milliseconds = 1e-6});
+  for (gpu::Device* const on : {&device(), &hasty}) {
+    const Kernel kernel(*on, shaders::gpu_counted);
+    constexpr std::uint32_t kStride = 300000;
+    struct Case {
+      std::vector<std::uint32_t> counts;
+      std::uint64_t most, expected;
+    };
+    for (const Case& test : {Case{{0}, 1000, 5}, Case{{1}, 1000, 0}, Case{{70000}, 100000, 100},
+                             Case{{70000}, 100000, 99999}, Case{{5000}, 300, 4},
+                             Case{{10000, 0, 3000, 10001}, 20000, 10000}, Case{{7}, 0, 0}}) {
+      const auto rows = static_cast<std::uint32_t>(test.counts.size());
+      Buffer counts(*on, "counts", 64, Usage::storage);
+      Buffer visits(*on, "visits", std::uint64_t{rows} * kStride * 4, Usage::storage);
+      BindingTable table;
+      table.set(PPM_BIND_TEST_0, visits);
+      table.set(PPM_BIND_TEST_1, counts);
+      on->run([&](Recorder& recorder) {
+        recorder.fill(visits, 0, visits.bytes());
+        for (std::uint32_t row = 0; row < rows; ++row)
+          recorder.fill(counts, test.counts[row], 4, 4 * row + 8);
+        for (int i = 0; i < 2; ++i) {
+          recorder.dispatch(kernel, table, CountedPush{.stride = kStride},
+                            gpu::DeviceCount{counts, 2, test.most, test.expected, rows});
+        }
+      });
+      std::vector<std::uint32_t> expected(std::size_t{rows} * kStride, 0);
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        const auto items = std::min<std::uint64_t>(test.counts[row], test.most);
+        std::fill_n(expected.begin() + row * kStride, items, 2u);
+      }
+      EXPECT_TRUE(visits.download<std::uint32_t>(expected.size()) == expected)
+          << test.counts[0] << " of at most " << test.most << ", expected " << test.expected;
+    }
+  }
+  EXPECT_EQ(hasty.validation_messages(), 0u);
+}
+
+// More counted dispatches than one submission has room for, each with the count the last one left.
+TEST_F(GpuRoom, CountsAreTakenWhenTheirTurnComes) {
+  constexpr std::uint32_t kSteps = 3000;
+  const Kernel kernel(device(), shaders::gpu_counted);
+  Buffer counts(device(), "counts", 16, Usage::storage);
+  Buffer visits(device(), "visits", 4096 * 4, Usage::storage);
+  BindingTable table;
+  table.set(PPM_BIND_TEST_0, visits);
+  table.set(PPM_BIND_TEST_1, counts);
+  device().run([&](Recorder& recorder) {
+    recorder.fill(visits, 0, visits.bytes());
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      recorder.fill(counts, i, 4, 8);
+      recorder.dispatch(kernel, table, CountedPush{}, gpu::DeviceCount{counts, 2, 4096, i / 2});
+    }
+  });
+  const auto seen = visits.download<std::uint32_t>(4096);
+  for (std::uint32_t i = 0; i < 4096; ++i)
+    ASSERT_EQ(seen[i], i + 1 < kSteps ? kSteps - 1 - i : 0u) << "item " << i;
+}
+
+TEST(CountedRanges, HoldTheMostAndFollowTheExpected) {
+  using gpu::cut_counted;
+  EXPECT_EQ(cut_counted(1000, 1000, 64, 1024).ranges, 1u);
+  EXPECT_EQ(cut_counted(100000, 10000, 64, 2048).ranges, 5u);
+  // However much is expected, no more ranges than PPM_COUNTED_RANGES, and room for all.
+  for (const std::uint64_t most : {1ull, 70000ull, 5000000ull, 256ull * 65535 * 64}) {
+    for (const std::uint64_t expected : {0ull, 100ull, 4000000000ull}) {
+      for (const std::uint64_t step : {1024ull, 65535ull * 64}) {
+        const gpu::CountedRanges cut = cut_counted(most, expected, 64, step);
+        EXPECT_LE(cut.ranges, 256u);
+        EXPECT_LE(cut.step, 65535u * 64);
+        const std::uint64_t before_last = (cut.ranges - 1ull) * cut.step;
+        EXPECT_LE(most, before_last + 65535u * 64) << expected << ", " << step;
+      }
+    }
+  }
+}
+
 TEST_F(GpuRoom, BytesComeBackAsTheyWent) {
   for (const bool staged : {false, true}) {
     device().implementation().maps_device_memory = !staged;
