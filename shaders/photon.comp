@@ -14,6 +14,7 @@
 #include "shared/photon.h"
 
 layout(push_constant, scalar) uniform PushBlock { PhotonPush push; };
+layout(binding = PPM_BIND_BATCH, scalar) buffer Batch { BatchWords batch; };
 layout(binding = PPM_BIND_PATHS_IN, scalar) readonly buffer PathsIn { PhotonPath paths_in[]; };
 layout(binding = PPM_BIND_PATHS_OUT, scalar) writeonly buffer PathsOut { PhotonPath paths_out[]; };
 layout(binding = PPM_BIND_PHOTON_POSITION, scalar) writeonly buffer PhotonPositions { uvec4 photon_position[]; };
@@ -24,7 +25,18 @@ bool hit_filter(uint triangle, vec2 barycentric) { return true; }
 // Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering.
 const uint kFirstScatteringBlock = 2u;
 
-PhotonPath emit(RandomStream random) {
+// Which pass of the batch a path belongs to: a quotient of numbers below 2^24, wrong by one at most before it is put
+// right. Integers are divided one lane after the other on lavapipe.
+uint pass_of(uint path) {
+  uint pass = min(uint(int(float(int(path)) / float(int(push.paths)))), push.passes - 1u);
+  if (pass * push.paths > path) pass -= 1u;
+  if (pass + 1u < push.passes && (pass + 1u) * push.paths <= path) pass += 1u;
+  return pass;
+}
+
+uint own_pass;  // of the path this invocation follows
+
+PhotonPath emit(uint index, RandomStream random) {
   uvec4 words = random_words(random, 0u);
   vec4 units = random_units(random, 1u);
   uint chosen = choose_light(words.x, words.y);
@@ -34,7 +46,7 @@ PhotonPath emit(RandomStream random) {
   bool has_surface = light.record.kind == PPM_LIGHT_TRIANGLE;
   path.origin = has_surface ? offset_origin(emission.position, emission.normal) : emission.position;
   path.direction = emission.direction;
-  path.path = random.path;
+  path.path = index;
   path.state = 0u;
   path.flux = emission.flux / (light.record.probability * scene.total_power);
   path.skip = has_surface ? light.record.triangle : PPM_NO_TRIANGLE;
@@ -42,8 +54,9 @@ PhotonPath emit(RandomStream random) {
 }
 
 void store(PhotonPath path, Surface surface, uint events) {
-  uint slot = atomicAdd(counters[PPM_COUNTER_PHOTONS], 1u);
-  if (slot >= push.photon_capacity) return;  // the host sees the count and redoes the pass in parts
+  uint slot = atomicAdd(batch.photons[own_pass], 1u);
+  if (slot >= push.photon_share) return;  // batch_check.comp sees the count
+  slot += own_pass * push.photon_share;
   Photon photon = Photon(surface.position, -path.direction, path.flux, surface.geometric_normal, events);
   photon_position[slot] = pack_photon_position(photon);
   photon_flux[slot] = pack_photon_flux(photon);
@@ -106,19 +119,20 @@ bool advance(inout PhotonPath path, RandomStream random) {
 
 void main() {
   uint item = item_of_invocation(push.first);
-  if (item >= push.first + push.count) return;
-  RandomStream random = RandomStream(scene.seed, push.stream, push.pass, push.emit_first + item);
+  uint paths = batch.alive[push.round];
+  if (item >= paths) return;
   PhotonPath path;
-  if (push.generate != 0u) {
-    path = emit(random);
-  } else {
-    path = paths_in[item];
-    random.path = path.path;
-  }
+  path.path = item;
+  if (push.generate == 0u) path = paths_in[item];
+  own_pass = pass_of(path.path);
+  uint number = push.emit_first + path.path - own_pass * push.paths;
+  RandomStream random = RandomStream(scene.seed, push.stream, push.pass + own_pass, number);
+  if (push.generate != 0u) path = emit(item, random);
   bool alive = true;
-  for (uint bounce = 0u; bounce < push.bounces && alive; ++bounce) alive = advance(path, random);
+  uint bounces = paths > PPM_FEW_PATHS ? PPM_BOUNCES_OF_MANY : PPM_BOUNCES_OF_FEW;
+  for (uint bounce = 0u; bounce < bounces && alive; ++bounce) alive = advance(path, random);
   if (alive) {
-    uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);
+    uint slot = atomicAdd(batch.alive[push.round + 1u], 1u);
     if (slot < push.path_capacity) paths_out[slot] = path;
   } else {
     atomicAdd(counters[PPM_COUNTER_PHOTON_RAYS], (path.state & 0xffffu) + 1u);  // one before each event, and the last

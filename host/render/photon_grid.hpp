@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "device_batch.hpp"
 #include "exclusive_scan.hpp"
 #include "kernel.hpp"
 #include "shared/layout.h"
@@ -21,16 +22,40 @@ class PhotonGrid {
   void build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons,
              float cell);
 
+  /// The photons of a batch: `passes` passes whose photons begin `share` apart, as many as
+  /// `batch.sortable` says, some `expected` of each. `batch` is bound in `photon_table`.
+  struct Photons {
+    const DeviceBatch& batch;
+    std::uint32_t passes, share;
+    std::uint64_t expected;
+  };
+  /// Records the same for a batch. Each pass gets a table of its own.
+  void record(gpu::Recorder& recorder, const gpu::BindingTable& photon_table,
+              const Photons& photons, float cell);
+  /// Passes whose tables are sure to fit in cells of about `cell` working units.
+  std::uint32_t most_passes(float cell, std::uint64_t expected_photons) const;
+
   void bind(gpu::BindingTable& table) const;
-  const shared::GridConstants& constants() const { return constants_; }
+  /// For searches among the photons of one pass of the batch that was sorted last.
+  shared::GridConstants constants(std::uint32_t pass = 0) const;
 
  private:
+  /// Size of a pass's table and the grid over it.
+  struct Shape {
+    shared::GridConstants constants;
+    std::uint32_t entries;
+  };
+  Shape shape(float cell, std::uint64_t photons) const;
+
+  gpu::Device& device_;
   glm::vec3 bounds_min_, bounds_max_;
   std::uint32_t table_entries_;  ///< of a hashed table, a power of two
+  std::uint64_t max_entries_;    ///< of all tables together
   gpu::Kernel count_, scatter_;
   ExclusiveScan scan_;
   gpu::Buffer cell_count_, cell_start_, sorted_position_, sorted_flux_;
-  shared::GridConstants constants_{};
+  DeviceBatch single_;  ///< tells `build`'s kernels of its photons
+  Shape shape_{};       ///< of what was sorted last
 };
 
 /// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their

@@ -1,5 +1,9 @@
 #include "photon_tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "failure.hpp"
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 #include "shared/layout.h"
@@ -8,12 +12,17 @@
 namespace ppm::render {
 namespace {
 
-// Bounces that one dispatch follows a path. Few, while many paths are alive and lanes would idle
-// beside longer ones; many at the end, when rounds of few paths would cost more to submit than to
-// trace.
-constexpr std::uint32_t kBouncesOfMany = 2;
-constexpr std::uint32_t kBouncesOfFew = 4;
-constexpr std::uint32_t kFewPaths = 4096;
+// Before anything is known: rounds to record, the share of paths that survive each, photons a path.
+constexpr std::uint32_t kFirstRounds = 12;
+constexpr double kFirstSurvival = 0.7;
+constexpr double kFirstPhotons = 4.0;
+// Rounds recorded beyond the usual ones: they cost less than a look from the host.
+constexpr std::uint32_t kSpareRounds = 2;
+static_assert(PPM_TRACE_ROUNDS % 2 == 0, "paths that are left must lie in the first queue");
+
+std::uint32_t even(std::uint32_t rounds) {
+  return std::clamp((rounds + 1) / 2 * 2, 2u, std::uint32_t{PPM_TRACE_ROUNDS});
+}
 
 }  // namespace
 
@@ -30,9 +39,18 @@ PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene,
               gpu::Usage::storage}},
       position_(device, "photon positions", photon_capacity * 16, gpu::Usage::storage_and_texels),
       flux_(device, "photon fluxes", photon_capacity * 16, gpu::Usage::storage_and_texels),
-      counters_(device) {
+      batch_(device),
+      counters_(device),
+      usual_rounds_(kFirstRounds),
+      usual_photons_(kFirstPhotons) {
   bind_photons(table_);
+  batch_.bind(table_);
   counters_.bind(table_);
+  double share = 1.0;
+  for (double& usual : usual_alive_) {
+    usual = share;
+    share *= kFirstSurvival;
+  }
 }
 
 void PhotonTracer::bind_photons(gpu::BindingTable& table) const {
@@ -40,37 +58,84 @@ void PhotonTracer::bind_photons(gpu::BindingTable& table) const {
   table.set(PPM_BIND_PHOTON_FLUX, flux_);
 }
 
+std::uint64_t PhotonTracer::expected_photons(std::uint64_t paths) const {
+  return static_cast<std::uint64_t>(std::ceil(usual_photons_ * static_cast<double>(paths)));
+}
+
+bool PhotonTracer::overflowed() const {
+  const auto first = std::begin(batch_->photons);
+  return *std::max_element(first, first + range_.passes) > photon_share(range_.passes);
+}
+
+void PhotonTracer::record(gpu::Recorder& recorder, const PathRange& range) {
+  PPM_ASSERT(range.passes >= 1 && range.passes <= PPM_BATCH_LIMIT &&
+                 std::uint64_t{range.paths} * range.passes <= path_capacity_,
+             std::to_string(range.passes) + " passes of " + std::to_string(range.paths) + " paths");
+  range_ = range;
+  rounds_ = usual_rounds_;
+  traced_ = 0;
+  batch_.begin(recorder, range.paths * range.passes);
+  counters_.clear(recorder);
+  record_rounds(recorder);
+}
+
+void PhotonTracer::record_rounds(gpu::Recorder& recorder) {
+  const gpu::Region region(device_, "photons");
+  shared::PhotonPush push{};
+  push.pass = range_.first_pass;
+  push.paths = range_.paths;
+  push.passes = range_.passes;
+  push.emit_first = range_.first_path;
+  push.photon_share = photon_share(range_.passes);
+  push.path_capacity = static_cast<std::uint32_t>(path_capacity_);
+  push.stream = range_.stream;
+  const std::uint32_t all = range_.paths * range_.passes;
+  for (push.round = 0; push.round < rounds_; ++push.round) {
+    push.generate = traced_ + push.round == 0 ? 1 : 0;
+    table_.set(PPM_BIND_PATHS_IN, queue_[push.round % 2]);
+    table_.set(PPM_BIND_PATHS_OUT, queue_[(push.round + 1) % 2]);
+    const double share =
+        usual_alive_[std::min<std::uint32_t>(traced_ + push.round, PPM_TRACE_ROUNDS - 1)];
+    recorder.dispatch(kernel_, table_, push,
+                      batch_.alive(push.round, all, static_cast<std::uint64_t>(share * all)));
+  }
+  batch_.read(recorder);
+  counters_.read(recorder);
+}
+
+PhotonTracer::Result PhotonTracer::finish(const std::function<bool()>& interrupted) {
+  for (;;) {
+    learn();
+    if (overflowed()) return Result::overflow;
+    if (!has_more()) return Result::done;
+    if (interrupted()) return Result::interrupted;
+    device_.run([&](gpu::Recorder& recorder) {
+      batch_.begin_again(recorder, rounds_);
+      traced_ += rounds_;
+      record_rounds(recorder);
+    });
+  }
+}
+
+// What the rounds that have run say about the next range's.
+void PhotonTracer::learn() {
+  const double all = std::max(range_.paths * range_.passes, 1u);
+  std::uint32_t used = 0;
+  for (; used < rounds_ && batch_->alive[used] > 0; ++used) {
+    if (traced_ + used < PPM_TRACE_ROUNDS) usual_alive_[traced_ + used] = batch_->alive[used] / all;
+  }
+  usual_rounds_ = even(traced_ + used + kSpareRounds);
+  if (!has_more()) usual_photons_ = batch_->photons[0] / std::max<double>(range_.paths, 1.0);
+}
+
 PhotonTracer::Result PhotonTracer::trace(std::uint32_t stream, std::uint32_t pass,
                                          std::uint32_t first_path, std::uint32_t paths,
                                          const std::function<bool()>& interrupted) {
-  const gpu::Region region(device_, "photons");
-  shared::PhotonPush push{};
-  push.pass = pass;
-  push.emit_first = first_path;
-  push.photon_capacity = static_cast<std::uint32_t>(photon_capacity_);
-  push.path_capacity = static_cast<std::uint32_t>(path_capacity_);
-  push.stream = stream;
-  std::uint32_t alive = paths;
-  for (std::uint32_t round = 0; alive > 0; ++round) {
-    if (interrupted()) return Result::interrupted;
-    push.generate = round == 0 ? 1 : 0;
-    push.bounces = alive > kFewPaths ? kBouncesOfMany : kBouncesOfFew;
-    table_.set(PPM_BIND_PATHS_IN, queue_[round % 2]);
-    table_.set(PPM_BIND_PATHS_OUT, queue_[(round + 1) % 2]);
-    device_.run([&](gpu::Recorder& recorder) {
-      if (round == 0) {
-        counters_.clear(recorder);
-      } else {
-        counters_.clear(recorder, PPM_COUNTER_PATHS_OUT);
-      }
-      recorder.dispatch(kernel_, table_, push, alive);
-      counters_.read(recorder);
-    });
-    if (counters_[PPM_COUNTER_PHOTONS] > photon_capacity_) return Result::overflow;
-    alive = counters_[PPM_COUNTER_PATHS_OUT];
-  }
-  photon_count_ = counters_[PPM_COUNTER_PHOTONS];
-  return Result::done;
+  if (interrupted()) return Result::interrupted;
+  device_.run([&](gpu::Recorder& recorder) {
+    record(recorder, {stream, pass, 1, first_path, paths});
+  });
+  return finish(interrupted);
 }
 
 }  // namespace ppm::render

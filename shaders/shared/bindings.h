@@ -54,6 +54,9 @@
 #define PPM_BIND_PIXELS 33            // vec4: radiance of each pixel of the tile
 #define PPM_BIND_RADIUS_HISTOGRAM 34  // uint[PPM_RADIUS_BINS]
 
+// Batches of photon passes.
+#define PPM_BIND_BATCH 35  // BatchWords
+
 // Counts that become dispatches (shared/dispatch_counts.h).
 #define PPM_BIND_DISPATCH_WORDS 38
 #define PPM_BIND_DISPATCH_COMMANDS 39

@@ -27,12 +27,14 @@ PPM_FN uvec3 grid_cell(GridConstants grid, vec3 position) {
 // Table index of the cell (0, y, z); the cell x of that row is x further on. A hashed table has
 // table_mask + 1 + size.x entries, so that no row wraps around.
 PPM_FN uint grid_row(GridConstants grid, uint y, uint z) {
-  if (grid.table_mask == PPM_GRID_DENSE) return grid.size.x * (y + grid.size.y * z);
+  if (grid.table_mask == PPM_GRID_DENSE) {
+    return grid.table_first + grid.size.x * (y + grid.size.y * z);
+  }
   uint hash = (y * 0x9E3779B1u) ^ (z * 0x85EBCA77u);
   hash ^= hash >> 15u;
   hash *= 0x2C1B3C6Du;
   hash ^= hash >> 13u;
-  return hash & grid.table_mask;
+  return grid.table_first + (hash & grid.table_mask);
 }
 
 PPM_FN uint grid_table_index(GridConstants grid, uvec3 cell) {

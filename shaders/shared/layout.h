@@ -136,13 +136,40 @@ struct SceneConstants {
 #define PPM_COUNTER_PHOTON_RAYS 10    // segments of the photon paths that have ended
 #define PPM_COUNTER_COUNT 16
 
+// ---- Batches of photon passes
+// ------------------------------------------------------------------------------------------
+
+#define PPM_BATCH_LIMIT 16   // passes of a batch
+#define PPM_TRACE_ROUNDS 32  // rounds of bounces recorded at a time; an even number
+#define PPM_GO_ON 0xffffffffu
+
+// What the device decides about a batch while no host looks on, and tells when all is done. All zero
+// at the beginning but go_on and the first of `alive`.
+struct BatchWords {
+  uint go_on;      // PPM_GO_ON: what is recorded may run. 0: something did not fit, and it must not
+  uint completed;  // passes whose searches are complete
+  uint clamped, overflow;             // the counters of these names after the last completed pass
+  uint alive[PPM_TRACE_ROUNDS + 1];   // paths that each round begins with
+  uint photons[PPM_BATCH_LIMIT];      // of each pass; more than its share: they do not fit
+  uint sortable[PPM_BATCH_LIMIT];     // the same once all of the batch are known to fit
+};
+
+struct BatchCheckPush {
+  uint first, count;
+  uint searched;      // 0: paths have been traced; 1: a pass's photons have been searched
+  uint pass;          // of the batch, when searched
+  uint passes;        // of the batch
+  uint photon_share;  // room for the photons of one pass
+  uint rounds;        // that were recorded
+};
+
 // ---- Photon pass
 // ------------------------------------------------------------------------------------------
 
 // A photon's path between two bounces. Flux is in units in which all lights together emit 1 a path.
 struct PhotonPath {
   vec3 origin;
-  uint path;       // index within the pass
+  uint path;       // index within the batch: pass of the batch * paths of each + path
   vec3 direction;  // unit, the way it travels
   uint state;  // bits 0-15: scattering events so far; 16-31: 1 + material of the medium, 0 outside
   vec3 flux;
@@ -153,14 +180,22 @@ struct PhotonPath {
 
 struct PhotonPush {
   uint first, count;
-  uint pass;        // number of the pass, RNG counter
-  uint emit_first;  // generation: path index of item 0
+  uint pass;        // number of the batch's first pass, RNG counter
+  uint paths;       // of each pass that are traced here
+  uint passes;      // of the batch; paths * passes < 2^24 unless it is 1
+  uint emit_first;  // number of each pass's first path here, RNG counter
   uint generate;    // 1: items are new paths; 0: items are PATHS_IN
-  uint photon_capacity;
+  uint photon_share;  // photons that each pass may store
   uint path_capacity;
-  uint stream;   // PPM_STREAM_*
-  uint bounces;  // that this dispatch follows a path at most
+  uint stream;  // PPM_STREAM_*
+  uint round;   // index into BatchWords::alive
 };
+
+// A round follows paths for few bounces while many are alive, lest lanes idle beside longer ones;
+// for more when few are left, whose rounds would cost more than their rays.
+#define PPM_FEW_PATHS 4096u
+#define PPM_BOUNCES_OF_MANY 2u
+#define PPM_BOUNCES_OF_FEW 4u
 
 // ---- Photon grid
 // ------------------------------------------------------------------------------------------
@@ -172,11 +207,14 @@ struct GridConstants {
   float inverse_cell;
   uvec3 size;       // cells along each axis; coordinates are clamped to it
   uint table_mask;  // hashed: table size - 1, a power of two less one; dense: 0xffffffff
-};                  // 32
+  uint table_first;  // first entry of the table: each pass of a batch has one of its own
+};                   // 36
 
 struct GridPush {
   uint first, count;
   GridConstants grid;
+  uint photon_share;  // where the photons of each pass of the batch begin, times the pass
+  uint entries;       // of each pass's table
 };
 
 // Exclusive scan of CELL_COUNT into CELL_START by serial chunks.
@@ -329,7 +367,8 @@ static_assert(sizeof(TextureRecord) == 16);
 static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);
 static_assert(sizeof(SceneConstants) == 128);
 static_assert(sizeof(PhotonPath) == 48);
-static_assert(sizeof(GridConstants) == 32);
+static_assert(sizeof(BatchWords) == 4 * (4 + PPM_TRACE_ROUNDS + 1 + 2 * PPM_BATCH_LIMIT));
+static_assert(sizeof(GridConstants) == 36);
 static_assert(sizeof(EyePath) == 64);
 static_assert(sizeof(HitPoint) == 64);
 static_assert(sizeof(GatherSum) == 40);

@@ -5,6 +5,10 @@
 
 // clang-format off
 
+#define PPM_FIELDS_4(a, n) U1(a[n]) U1(a[n + 1]) U1(a[n + 2]) U1(a[n + 3])
+#define PPM_FIELDS_16(a, n) \
+  PPM_FIELDS_4(a, n) PPM_FIELDS_4(a, n + 4) PPM_FIELDS_4(a, n + 8) PPM_FIELDS_4(a, n + 12)
+
 #define PPM_FIELDS_BVH_NODE(r) U4(r.box_x) U4(r.box_y) U4(r.box_z) U4(r.children)
 #define PPM_FIELDS_TRIANGLE_POSITIONS(r) \
   F3(r.corner0) U1(r.material) F3(r.corner1) U1(r.spare1) F3(r.corner2) U1(r.spare2)
@@ -26,10 +30,18 @@
 #define PPM_FIELDS_PHOTON_PATH(r) \
   F3(r.origin) U1(r.path) F3(r.direction) U1(r.state) F3(r.flux) U1(r.skip)
 #define PPM_FIELDS_PHOTON_PUSH(r) \
-  U1(r.first) U1(r.count) U1(r.pass) U1(r.emit_first) U1(r.generate) U1(r.photon_capacity) \
-  U1(r.path_capacity) U1(r.stream) U1(r.bounces)
-#define PPM_FIELDS_GRID_CONSTANTS(r) F3(r.origin) F1(r.inverse_cell) U3(r.size) U1(r.table_mask)
-#define PPM_FIELDS_GRID_PUSH(r) U1(r.first) U1(r.count) PPM_FIELDS_GRID_CONSTANTS(r.grid)
+  U1(r.first) U1(r.count) U1(r.pass) U1(r.paths) U1(r.passes) U1(r.emit_first) U1(r.generate) \
+  U1(r.photon_share) U1(r.path_capacity) U1(r.stream) U1(r.round)
+#define PPM_FIELDS_BATCH_CHECK_PUSH(r) \
+  U1(r.first) U1(r.count) U1(r.searched) U1(r.pass) U1(r.passes) U1(r.photon_share) U1(r.rounds)
+#define PPM_FIELDS_BATCH_WORDS(r) \
+  U1(r.go_on) U1(r.completed) U1(r.clamped) U1(r.overflow) \
+  PPM_FIELDS_16(r.alive, 0) PPM_FIELDS_16(r.alive, 16) U1(r.alive[32]) \
+  PPM_FIELDS_16(r.photons, 0) PPM_FIELDS_16(r.sortable, 0)
+#define PPM_FIELDS_GRID_CONSTANTS(r) \
+  F3(r.origin) F1(r.inverse_cell) U3(r.size) U1(r.table_mask) U1(r.table_first)
+#define PPM_FIELDS_GRID_PUSH(r) \
+  U1(r.first) U1(r.count) PPM_FIELDS_GRID_CONSTANTS(r.grid) U1(r.photon_share) U1(r.entries)
 #define PPM_FIELDS_SCAN_PUSH(r) U1(r.first) U1(r.count) U1(r.total) U1(r.slice)
 #define PPM_FIELDS_EYE_PATH(r) \
   F3(r.origin) U1(r.pixel) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.sample_index) \
@@ -67,6 +79,8 @@
   RECORD(SceneConstants, scene_constants, PPM_FIELDS_SCENE_CONSTANTS) \
   RECORD(PhotonPath, photon_path, PPM_FIELDS_PHOTON_PATH) \
   RECORD(PhotonPush, photon_push, PPM_FIELDS_PHOTON_PUSH) \
+  RECORD(BatchCheckPush, batch_check_push, PPM_FIELDS_BATCH_CHECK_PUSH) \
+  RECORD(BatchWords, batch_words, PPM_FIELDS_BATCH_WORDS) \
   RECORD(GridConstants, grid_constants, PPM_FIELDS_GRID_CONSTANTS) \
   RECORD(GridPush, grid_push, PPM_FIELDS_GRID_PUSH) \
   RECORD(ScanPush, scan_push, PPM_FIELDS_SCAN_PUSH) \

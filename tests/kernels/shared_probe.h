@@ -72,6 +72,7 @@ PPM_FN ProbeWords probe_integers(uint which, ProbeWords words) {
     grid.inverse_cell = 37.7f;
     grid.size = uvec3(70u, 40u, 90u);
     grid.table_mask = (words.b.x & 1u) == 0u ? 0xffffffffu : 0xfffu;
+    grid.table_first = words.b.y & 0xffu;
     vec3 position =
         vec3(unit_from_word(words.a.x), unit_from_word(words.a.y), unit_from_word(words.a.z)) *
             3.0f -
