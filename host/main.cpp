@@ -6,6 +6,7 @@
 #include <new>
 #include <system_error>
 
+#include "bench_command.hpp"
 #include "devices_command.hpp"
 #include "failure.hpp"
 #include "options.hpp"
@@ -17,6 +18,8 @@ int act(const ppm::cli::Options& options) {
   switch (options.verb) {
     case ppm::cli::Verb::render:
       return ppm::cli::render_command(options.render);
+    case ppm::cli::Verb::bench:
+      return ppm::cli::bench_command(options.bench);
     case ppm::cli::Verb::devices:
       return ppm::cli::devices_command();
     case ppm::cli::Verb::nothing:

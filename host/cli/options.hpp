@@ -1,4 +1,5 @@
-// The command line as plain values. CLI11 is known to options.cpp alone.
+// The command line as plain values. CLI11 is known to options.cpp, *_options.* and declarer.*
+// alone.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,7 @@
 
 namespace ppm::cli {
 
-enum class Verb { render, devices, nothing };
+enum class Verb { render, bench, devices, nothing };
 
 /// `ppm-vk render ...`, checked for all that can be checked without opening a file.
 struct RenderOptions {
@@ -32,11 +33,31 @@ struct RenderOptions {
   render::Settings settings;  ///< all but width, height, camera
 };
 
+/// `ppm-vk bench ...`, likewise.
+struct BenchOptions {
+  BenchOptions() {
+    render.passes = 4;
+    render.settings.samples_per_pixel = 1;
+  }
+
+  std::vector<std::string> scenes;  ///< built-in names and files; empty: all built-in ones
+  unsigned repetitions = 5;
+  std::uint64_t warmup = 1;       ///< passes left out
+  bool aged = false;              ///< also once radii have halved
+  bool scaling = false;           ///< the table of ratios instead of scenes
+  std::string json;               ///< file, "-": stdout, empty: none
+  std::filesystem::path compare;  ///< earlier results; empty: none
+  std::filesystem::path with;     ///< later results, instead of measuring; empty: none
+  double tolerance = 0.1;
+  RenderOptions render;  ///< how each scene is rendered; `passes` are those timed a repetition
+};
+
 struct Options {
   Verb verb = Verb::nothing;
   int exit_code =
       0;  ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
   RenderOptions render;
+  BenchOptions bench;
 };
 
 /// Never throws for what a user can type: prints one line and yields Verb::nothing with exit

@@ -2,49 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <thread>
 
-#include "camera_choice.hpp"
 #include "driver.hpp"
 #include "failure.hpp"
 #include "load_gltf.hpp"
+#include "scene_settings.hpp"
 
 namespace ppm::cli {
 namespace {
 
 constexpr int kInterrupted = 130;
 
-/// Radii, in units of half the scene's size, that single precision can square and that can matter.
-constexpr double kSmallestRadius = 1e-9, kLargestRadius = 1e3;
-
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void check_radius(const render::Settings& settings, const scene::Scene& scene) {
-  if (settings.radius_mode != render::RadiusMode::fixed) return;
-  const double working = settings.radius * scene.frame.scale;
-  if (working >= kSmallestRadius && working <= kLargestRadius) return;
-  throw Failure(
-      scene.file, "--radius",
-      fmt::format("{} is out of all proportion to the scene", settings.radius),
-      fmt::format("choose one between {:.3g} and {:.3g}, or auto",
-                  kSmallestRadius / scene.frame.scale, kLargestRadius / scene.frame.scale));
-}
-
-render::Settings settings_for(const RenderOptions& options, const scene::Scene& scene, Log& log) {
-  render::Settings settings = options.settings;
-  settings.camera = choose_camera(options, scene, log);
-  std::tie(settings.width, settings.height) =
-      choose_resolution(options, settings.camera, options.settings.width);
-  check_radius(settings, scene);
-  return settings;
 }
 
 render::Circumstances circumstances_for(const scene::Scene& scene, const gpu::Device& device) {
@@ -56,10 +30,6 @@ render::Circumstances circumstances_for(const scene::Scene& scene, const gpu::De
   circumstances.frame = scene.frame;
   circumstances.device_memory_bytes = [&device] { return device.peak_bytes(); };
   return circumstances;
-}
-
-unsigned thread_count(unsigned asked_for) {
-  return asked_for > 0 ? asked_for : std::max(1u, std::thread::hardware_concurrency());
 }
 
 int exit_code(render::Outcome outcome, const gpu::Device& device) {

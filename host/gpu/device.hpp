@@ -47,12 +47,8 @@ struct KernelTime {
   std::uint64_t items = 0;
   /// Of the first command, during which some drivers compile; counted above, too.
   double first_seconds = 0.0;
-  std::uint64_t first_items = 0;
   void add(double more_seconds, std::uint64_t more_items) {
-    if (dispatches == 0) {
-      first_seconds = more_seconds;
-      first_items = more_items;
-    }
+    if (dispatches == 0) first_seconds = more_seconds;
     seconds += more_seconds;
     items += more_items;
     ++dispatches;

@@ -20,6 +20,12 @@ const char* filter_name(Filter filter) {
   return "";
 }
 
+std::string vector_text(const glm::dvec3& v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+}  // namespace
+
 std::string radius_text(const Settings& settings) {
   switch (settings.radius_mode) {
     case RadiusMode::automatic:
@@ -31,12 +37,6 @@ std::string radius_text(const Settings& settings) {
   }
   return "";
 }
-
-std::string vector_text(const glm::dvec3& v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
-}  // namespace
 
 std::vector<image::Attribute> picture_attributes(const Settings& settings,
                                                  const Circumstances& circumstances,

@@ -10,6 +10,9 @@
 
 namespace ppm::render {
 
+/// The initial radius that the settings ask for, as --radius takes it.
+std::string radius_text(const Settings& settings);
+
 /// All that decides the pixels, and how far the rendering came; no times, so that equal pictures
 /// make equal files.
 std::vector<image::Attribute> picture_attributes(const Settings& settings,

@@ -1,0 +1,14 @@
+// The options of `ppm-vk bench`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "options.hpp"
+
+namespace ppm::cli {
+
+void declare_bench(CLI::App& app, BenchOptions& options);
+/// What no option can tell alone; throws CLI::ParseError.
+void check_bench(const CLI::App& app, const BenchOptions& options);
+
+}  // namespace ppm::cli

@@ -1,0 +1,35 @@
+#include "declarer.hpp"
+
+#include <cmath>
+
+namespace ppm::cli {
+
+CLI::ValidationError refusal(const char* option, const std::string& value,
+                             const std::string& wanted) {
+  return CLI::ValidationError(option, fmt::format("'{}' is not {}", value, wanted));
+}
+
+std::optional<double> parse_finite(std::string_view text) {
+  const std::optional<double> value = parse_number<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<glm::dvec3> parse_vector(std::string_view text) {
+  glm::dvec3 vector{};
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (i == 2)) return std::nullopt;
+    const std::optional<double> value = parse_finite(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    vector[i] = *value;
+    text.remove_prefix(i == 2 ? text.size() : comma + 1);
+  }
+  return vector;
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return a.lexically_normal() == b.lexically_normal() || std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace ppm::cli

@@ -1,0 +1,221 @@
+#include "render_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "declarer.hpp"
+#include "image.hpp"
+
+namespace ppm::cli {
+namespace {
+
+constexpr std::uint32_t kLargestSide = 32768;
+
+void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
+  declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
+               [&](const std::string& value) { options.scene = value; });
+  declare.group("Files");
+  app.add_option_function<std::vector<std::string>>(
+         "-o,--output",
+         [&](const std::vector<std::string>& values) {
+           options.outputs.assign(values.begin(), values.end());
+           for (const std::string& value : values) {
+             if (!image::has_known_extension(value)) {
+               throw refusal("-o", value, "a file name that ends in .exr, .png or .hdr");
+             }
+           }
+         },
+         "picture to write; may be repeated")
+      ->type_name("FILE.exr|.png|.hdr")
+      ->group("Files")
+      ->allow_extra_args(false);
+  declare.text("--stats", "FILE.json", "write what was done and how long it took",
+               [&](const std::string& value) { options.stats = value; });
+  declare.real("--exposure", "EV", options.exposure, "a number from -100 to 100",
+               fmt::format("PNG: radiance is multiplied by 2^EV, then clipped (default {})",
+                           options.exposure),
+               [](double value) { return std::abs(value) <= 100.0; });
+}
+
+void declare_radius(Declarer& declare, render::Settings& settings) {
+  declare.text("--radius", "R|auto|footprint",
+               "initial radius in scene units; auto: by a discarded pilot pass, for each\n"
+               "hit point; footprint: from the pixel's footprint (default auto)",
+               [&](const std::string& value) {
+                 if (value == "auto") {
+                   settings.radius_mode = render::RadiusMode::automatic;
+                 } else if (value == "footprint") {
+                   settings.radius_mode = render::RadiusMode::footprint;
+                 } else if (const auto radius = parse_finite(value); radius && *radius > 0.0) {
+                   settings.radius_mode = render::RadiusMode::fixed;
+                   settings.radius = *radius;
+                 } else {
+                   throw refusal("--radius", value, "a positive number, auto or footprint");
+                 }
+               });
+}
+
+void declare_filter(Declarer& declare, render::Settings& settings) {
+  declare.text("--filter", "box|tent|gaussian",
+               "pixel filter that the eye paths are drawn from (default box)",
+               [&](const std::string& value) {
+                 if (value == "box") {
+                   settings.filter = render::Filter::box;
+                 } else if (value == "tent") {
+                   settings.filter = render::Filter::tent;
+                 } else if (value == "gaussian") {
+                   settings.filter = render::Filter::gaussian;
+                 } else {
+                   throw refusal("--filter", value, "one of box, tent, gaussian");
+                 }
+               });
+}
+
+void declare_integrator(Declarer& declare, render::Settings& settings) {
+  declare.text("--integrator", "NAME", fmt::format("method (default {})", settings.integrator),
+               [&](const std::string& value) {
+                 const auto names = render::integrator_names();
+                 if (std::find(names.begin(), names.end(), value) == names.end()) {
+                   throw refusal("--integrator", value,
+                                 fmt::format("one of {}", fmt::join(names, ", ")));
+                 }
+                 settings.integrator = value;
+               });
+}
+
+}  // namespace
+
+void declare_method(Declarer& declare, RenderOptions& options, const char* passes) {
+  render::Settings& settings = options.settings;
+  constexpr std::uint64_t kMany = std::numeric_limits<std::uint32_t>::max();
+  declare.group("Method");
+  declare_integrator(declare, settings);
+  declare.whole<std::uint64_t>("--passes", options.passes, 1, kMany,
+                               fmt::format("{} (default {})", passes, options.passes));
+  declare.whole<std::uint64_t>(
+      "--photons", settings.photons_per_pass, 1, kMany,
+      fmt::format("photon paths emitted a pass (default {})", settings.photons_per_pass));
+  declare.real(
+      "--alpha", "A", settings.alpha, "a number between 0 and 1, both excluded",
+      fmt::format("share of a pass's photons that is kept, in (0,1) (default {})", settings.alpha),
+      [](double value) {
+        const auto single = static_cast<float>(value);  // what the kernels compute with
+        return single > 0.0f && single < 1.0f;
+      });
+  declare_radius(declare, settings);
+  declare.whole<std::uint32_t>(
+      "--spp", settings.samples_per_pixel, 1, 65536,
+      fmt::format("eye paths a pixel, stratified (default {})", settings.samples_per_pixel));
+  declare_filter(declare, settings);
+  declare.whole<std::uint32_t>(
+      "--seed", settings.seed, 0, std::numeric_limits<std::uint32_t>::max(),
+      fmt::format("what every random number follows from (default {})", settings.seed));
+  declare.whole<std::uint32_t>(
+      "--max-depth", settings.max_depth, 0, 255,
+      fmt::format("scattering events between light and eye at most; 0: no limit (default {})",
+                  settings.max_depth));
+}
+
+void declare_camera(Declarer& declare, RenderOptions& options) {
+  declare.group("Picture and camera");
+  declare.whole<std::uint32_t>(
+      "--width", options.width, 1, kLargestSide,
+      fmt::format("pixels (default {}, or from --height and the camera's aspect)",
+                  options.settings.width));
+  declare.whole<std::uint32_t>("--height", options.height, 1, kLargestSide,
+                               "pixels (default from the width and the camera's aspect, or 4:3)");
+  declare.text("--camera", "NAME|INDEX", "camera of the file (default the first)",
+               [&](const std::string& value) { options.camera = value; });
+  declare.vector("--camera-position", options.camera_position,
+                 "where the camera stands, in scene units");
+  declare.vector("--camera-target", options.camera_target,
+                 "what the camera looks at, in scene units");
+  declare.vector("--camera-up", options.camera_up,
+                 "what is up in the picture (default 0,1,0 with --camera-target)");
+  declare.real("--camera-fov", "DEGREES", options.camera_fov,
+               "an angle between 0 and 180, both excluded", "vertical field of view",
+               [](double value) { return value > 0.0 && value < 180.0; });
+}
+
+void declare_machine(Declarer& declare, RenderOptions& options) {
+  declare.group("Machine");
+  declare.text("--device", "NAME|INDEX",
+               "Vulkan device, see ppm-vk devices (default the best: discrete GPU,\n"
+               "integrated, virtual, CPU)",
+               [&](const std::string& value) { options.device.selector = value; });
+  declare.real("--dispatch-ms", "N", options.device.dispatch_milliseconds,
+               "a number of milliseconds above 0",
+               fmt::format("milliseconds that no dispatch is meant to exceed (default {})",
+                           options.device.dispatch_milliseconds),
+               [](double value) { return value > 0.0; });
+  declare.whole<unsigned>("--threads", options.threads, 0, 4096,
+                          "host threads; 0: one for each core (default 0)");
+  declare.flag("--quiet", "print nothing but errors",
+               [&] { options.verbosity = Verbosity::quiet; });
+  declare.flag("--verbose", "print more", [&] { options.verbosity = Verbosity::verbose; });
+}
+
+void declare_testing(Declarer& declare, RenderOptions& options) {
+  constexpr std::uint64_t kMany = std::uint64_t{1} << 31;
+  declare.group("Testing (no effect on the picture)");
+  declare.flag("--validate", "Vulkan validation; any message makes the exit code 1",
+               [&] { options.device.validation = true; });
+  declare.whole<std::uint64_t>(
+      "--tile-hits", options.settings.tile_hits, 1, kMany,
+      fmt::format("hit points a tile holds at most (default {})", options.settings.tile_hits));
+  declare.whole<std::uint64_t>("--photon-capacity", options.settings.photon_capacity, 1, kMany,
+                               fmt::format("photons stored at a time at most (default {})",
+                                           options.settings.photon_capacity));
+}
+
+void declare_render(CLI::App& app, RenderOptions& options) {
+  app.formatter(std::make_shared<HelpFormatter>(
+      "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr [-o ...] [OPTIONS]\n"));
+  app.allow_extras();
+  Declarer declare(app);
+  declare_files(declare, options, app);
+  declare_method(declare, options, "photon passes");
+  declare_camera(declare, options);
+  declare_machine(declare, options);
+  declare_testing(declare, options);
+}
+
+void check_extras(const CLI::App& app) {
+  const std::vector<std::string> extras = app.remaining();
+  if (extras.empty()) return;
+  const bool is_option = extras.front().starts_with('-');
+  throw CLI::ValidationError(extras.front(),
+                             is_option ? "no such option" : "one argument too many");
+}
+
+void check_shared(const CLI::App& app, const RenderOptions& options) {
+  if (app.count("--quiet") > 0 && app.count("--verbose") > 0) {
+    throw CLI::ValidationError("--quiet", "excludes --verbose");
+  }
+  if (options.camera_up && *options.camera_up == glm::dvec3(0.0)) {
+    throw refusal("--camera-up", "0,0,0", "a direction");
+  }
+  if (options.camera_position && options.camera_target &&
+      *options.camera_position == *options.camera_target) {
+    throw CLI::ValidationError("--camera-target", "is the same point as --camera-position");
+  }
+}
+
+void check_render(const CLI::App& app, const RenderOptions& options) {
+  check_extras(app);
+  if (options.scene.empty()) throw CLI::ValidationError("SCENE", "no scene file is given");
+  if (options.outputs.empty()) {
+    throw CLI::ValidationError("-o", "no picture to write is given, such as -o out.exr");
+  }
+  if (app.count("--stats") > 0) {
+    if (options.stats.empty()) throw refusal("--stats", "", "a file name");
+    bool clash = same_file(options.stats, options.scene);
+    for (const auto& output : options.outputs) clash = clash || same_file(options.stats, output);
+    if (clash) throw refusal("--stats", options.stats.string(), "a file of its own");
+  }
+  check_shared(app, options);
+}
+
+}  // namespace ppm::cli

@@ -1,0 +1,23 @@
+// The options of `ppm-vk render`, and those that other verbs share with it.
+#pragma once
+
+#include "declarer.hpp"
+#include "options.hpp"
+
+namespace ppm::cli {
+
+void declare_render(CLI::App& app, RenderOptions& options);
+/// What no option can tell alone; throws CLI::ParseError.
+void check_render(const CLI::App& app, const RenderOptions& options);
+
+/// Groups of options; help names the defaults that `options` has, and says of --passes what they
+/// are.
+void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
+void declare_camera(Declarer& declare, RenderOptions& options);
+void declare_machine(Declarer& declare, RenderOptions& options);
+void declare_testing(Declarer& declare, RenderOptions& options);
+/// Their part of the check, and arguments that nothing takes.
+void check_shared(const CLI::App& app, const RenderOptions& options);
+void check_extras(const CLI::App& app);
+
+}  // namespace ppm::cli

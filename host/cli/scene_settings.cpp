@@ -1,0 +1,44 @@
+#include "scene_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <tuple>
+
+#include "camera_choice.hpp"
+#include "failure.hpp"
+
+namespace ppm::cli {
+namespace {
+
+/// Radii, in units of half the scene's size, that single precision can square and that can matter.
+constexpr double kSmallestRadius = 1e-9, kLargestRadius = 1e3;
+
+void check_radius(const render::Settings& settings, const scene::Scene& scene) {
+  if (settings.radius_mode != render::RadiusMode::fixed) return;
+  const double working = settings.radius * scene.frame.scale;
+  if (working >= kSmallestRadius && working <= kLargestRadius) return;
+  throw Failure(
+      scene.file, "--radius",
+      fmt::format("{} is out of all proportion to the scene", settings.radius),
+      fmt::format("choose one between {:.3g} and {:.3g}, or auto",
+                  kSmallestRadius / scene.frame.scale, kLargestRadius / scene.frame.scale));
+}
+
+}  // namespace
+
+render::Settings settings_for(const RenderOptions& options, const scene::Scene& scene, Log& log) {
+  render::Settings settings = options.settings;
+  settings.camera = choose_camera(options, scene, log);
+  std::tie(settings.width, settings.height) =
+      choose_resolution(options, settings.camera, options.settings.width);
+  check_radius(settings, scene);
+  return settings;
+}
+
+unsigned thread_count(unsigned asked_for) {
+  return asked_for > 0 ? asked_for : std::max(1u, std::thread::hardware_concurrency());
+}
+
+}  // namespace ppm::cli
