@@ -14,7 +14,6 @@ namespace {
 
 using shared::BvhNode;
 
-constexpr std::uint32_t kInvertedPlanes = 0x0000ffffu;  // lower 65535, upper 0
 constexpr std::uint32_t kTaskSize = 16384;  // primitives below which one thread emits a subtree
 
 // In double, where squares of floats cannot overflow.
@@ -25,8 +24,12 @@ double half_area(const Box& box) {
 }
 
 BvhNode empty_node() {
-  const glm::uvec4 inverted(kInvertedPlanes);
+  const glm::uvec4 inverted(~0u, ~0u, 0u, 0u);  // lower planes 65535, upper 0
   return {inverted, inverted, inverted, glm::uvec4(PPM_BVH_EMPTY)};
+}
+
+void set_half(std::uint32_t& word, int shift, std::uint32_t plane) {
+  word = (word & ~(0xffffu << shift)) | plane << shift;
 }
 
 // Entries of stack that a subtree can be held to: opened two binary levels at a time, every wide
@@ -150,8 +153,9 @@ void Collapse::link(Child child, std::uint32_t parent, int slot, std::vector<Bvh
   BvhNode& node = nodes[parent];
   for (int axis = 0; axis < 3; ++axis) {
     glm::uvec4& planes = axis == 0 ? node.box_x : axis == 1 ? node.box_y : node.box_z;
-    planes[slot] =
-        grid_.plane_below(box.lower[axis], axis) | grid_.plane_above(box.upper[axis], axis) << 16;
+    const int pair = slot / 2, shift = 16 * (slot % 2);
+    set_half(planes[pair], shift, grid_.plane_below(box.lower[axis], axis));
+    set_half(planes[2 + pair], shift, grid_.plane_above(box.upper[axis], axis));
   }
   if (!is_leaf(child)) return;
   const std::uint32_t first = child.is_primitive() ? child.index() : node_of(child).begin;

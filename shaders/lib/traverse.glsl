@@ -16,12 +16,14 @@ struct Hit {
   vec2 barycentric;  // weights of the corners 1 and 2
 };
 
-// A ray in the units of the boxes' grid. near and far offsets hold the origin, moved outward by more than the
-// rounding error of the transformation, so that no box is missed.
+// A ray in the units of the boxes' grid, for planes read as 1 + q / 65536. near and far offsets hold the origin, moved
+// outward by more than the rounding error of the transformation, so that no box is missed: in units of 2^-24 * (65536 +
+// |origin|) steps the origin is off by 2, the inverse by 3, the offset by 3, a plane's product by 2 and the difference
+// by 1; the pad is 16 of them.
 struct GridRay {
-  vec3 inverse_direction;
+  vec3 inverse_direction;  // times 65536
   vec3 near_offset, far_offset;
-  uvec3 near_shift, far_shift;  // which half of a word holds the plane met first
+  bvec3 backward;  // along this axis upper planes are met first
 };
 
 GridRay make_grid_ray(vec3 origin, vec3 direction) {
@@ -30,15 +32,61 @@ GridRay make_grid_ray(vec3 origin, vec3 direction) {
   // A component of 0 becomes tiny: its planes are then met far outside any interval.
   d = mix(d, mix(vec3(1e-10), vec3(-1e-10), lessThan(d, vec3(0.0))), lessThan(abs(d), vec3(1e-10)));
   GridRay ray;
-  ray.inverse_direction = 1.0 / d;
+  ray.backward = lessThan(d, vec3(0.0));
   // An axis at a time: in a flat scene one has far finer planes than the others.
   vec3 pad = 9.5367431640625e-7 * (65536.0 + abs(o));
-  vec3 outward = mix(pad, -pad, lessThan(d, vec3(0.0)));
-  ray.near_offset = (o + outward) * ray.inverse_direction;
-  ray.far_offset = (o - outward) * ray.inverse_direction;
-  ray.near_shift = mix(uvec3(0u), uvec3(16u), lessThan(d, vec3(0.0)));
-  ray.far_shift = uvec3(16u) - ray.near_shift;
+  vec3 outward = mix(pad, -pad, ray.backward);
+  vec3 inverse = 1.0 / d;
+  ray.near_offset = (o + 65536.0 + outward) * inverse;
+  ray.far_offset = (o + 65536.0 - outward) * inverse;
+  ray.inverse_direction = 65536.0 * inverse;
   return ray;
+}
+
+// Four planes, two to a word, in [1, 2): their 16 bits become the upper ones of a mantissa, which costs less than a
+// conversion.
+vec4 read_planes(uvec2 pairs) {
+  uvec4 mantissas = uvec4(pairs.x << 7u, pairs.x >> 9u, pairs.y << 7u, pairs.y >> 9u) & 0x007fff80u;
+  return uintBitsToFloat(mantissas | 0x3f800000u);
+}
+
+// Where the ray meets the four children's near and far planes of one axis. Bits of floats, compared as integers: these
+// have the order of the floats where both are positive, and what is behind the origin stays below zero. Integers spare
+// the drivers the care that they take over NaNs.
+void meet_planes(uvec4 box, bool backward, float inverse, float near_offset, float far_offset, out ivec4 near,
+                 out ivec4 far) {
+  uvec2 first = backward ? box.zw : box.xy;
+  uvec2 last = backward ? box.xy : box.zw;
+  near = floatBitsToInt(read_planes(first) * inverse - near_offset);
+  far = floatBitsToInt(read_planes(last) * inverse - far_offset);
+}
+
+const int kMissKey = 0x7f000000;  // no child that is met has as high a key
+
+// For each child the bits of the distance at which the ray enters its box, the child's number in place of the lowest two.
+ivec4 meet_children(uvec4 box_x, uvec4 box_y, uvec4 box_z, uvec4 children, GridRay ray, float t_max) {
+  ivec4 near_x, near_y, near_z, far_x, far_y, far_z;
+  vec3 inverse = ray.inverse_direction;
+  meet_planes(box_x, ray.backward.x, inverse.x, ray.near_offset.x, ray.far_offset.x, near_x, far_x);
+  meet_planes(box_y, ray.backward.y, inverse.y, ray.near_offset.y, ray.far_offset.y, near_y, far_y);
+  meet_planes(box_z, ray.backward.z, inverse.z, ray.near_offset.z, ray.far_offset.z, near_z, far_z);
+  ivec4 near = max(max(near_x, near_y), max(near_z, ivec4(0)));
+  ivec4 far = min(min(far_x, far_y), min(far_z, ivec4(floatBitsToInt(t_max))));
+  ivec4 keys = near & ~3 | ivec4(0, 1, 2, 3);
+  keys = mix(keys, ivec4(kMissKey), greaterThan(near, far));
+  // From so far away that rounding exceeds the grid, the inverted box of a missing child is met too.
+  return mix(keys, ivec4(kMissKey), equal(children, uvec4(PPM_BVH_EMPTY)));
+}
+
+ivec4 ascending(ivec4 k) {
+  ivec2 low = min(k.xz, k.yw), high = max(k.xz, k.yw);
+  int first = min(low.x, low.y), second = max(low.x, low.y), third = min(high.x, high.y);
+  return ivec4(first, min(second, third), max(second, third), max(high.x, high.y));
+}
+
+uint child_of(uvec4 children, int key) {
+  uvec2 pair = (key & 2) == 0 ? children.xy : children.zw;
+  return (key & 1) == 0 ? pair.x : pair.y;
 }
 
 // A sheared frame in which the ray starts at the origin and runs along the third axis, t being the third coordinate:
@@ -96,62 +144,45 @@ bool intersect_triangle(TriangleCorners corners, vec3 origin, RayFrame frame, fl
   return (lowest >= 0.0 || highest <= 0.0) && area != 0.0 && t > 0.0 && t < t_max;
 }
 
-void order_pair(inout float t0, inout uint ref0, inout float t1, inout uint ref1) {
-  bool swapped = t1 < t0;
-  float t = swapped ? t1 : t0;
-  uint ref = swapped ? ref1 : ref0;
-  t1 = swapped ? t0 : t1;
-  ref1 = swapped ? ref0 : ref1;
-  t0 = t;
-  ref0 = ref;
-}
-
 // The nearest hit closer than t_max, or with `any` the first that is found. `skip` is a triangle not to be hit: the
 // one the ray starts on.
+//
+// Lavapipe runs eight rays in lockstep and executes the body of a loop once more for a condition that is tested at its
+// top: hence do-while. It stores to an array lane by lane with a branch each for a lane that is masked: hence children
+// are always written above the top of the stack, and it is the top that moves only for those that are met.
 Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any) {
-  const float kMiss = 3e38;
   Hit hit = Hit(t_max, PPM_NO_TRIANGLE, vec2(0.0));
   GridRay ray = make_grid_ray(origin, direction);
   RayFrame frame = make_ray_frame(direction);
-  uint stack[PPM_BVH_STACK];
-  uint depth = 0u;
+  uint stack[PPM_BVH_STACK + 2];  // beside the entries PPM_BVH_EMPTY below them, and what is written above the top
+  stack[0] = PPM_BVH_EMPTY;
+  uint depth = 1u;
   uint ref = 0u;
-  while (ref != PPM_BVH_EMPTY) {
-    while ((ref & PPM_BVH_LEAF) == 0u) {
-      uvec4 box_x = PPM_FETCH(bvh_nodes, 4u * ref);
-      uvec4 box_y = PPM_FETCH(bvh_nodes, 4u * ref + 1u);
-      uvec4 box_z = PPM_FETCH(bvh_nodes, 4u * ref + 2u);
-      uvec4 children = PPM_FETCH(bvh_nodes, 4u * ref + 3u);
-      vec4 near_x = vec4((box_x >> ray.near_shift.x) & 0xffffu) * ray.inverse_direction.x - ray.near_offset.x;
-      vec4 near_y = vec4((box_y >> ray.near_shift.y) & 0xffffu) * ray.inverse_direction.y - ray.near_offset.y;
-      vec4 near_z = vec4((box_z >> ray.near_shift.z) & 0xffffu) * ray.inverse_direction.z - ray.near_offset.z;
-      vec4 far_x = vec4((box_x >> ray.far_shift.x) & 0xffffu) * ray.inverse_direction.x - ray.far_offset.x;
-      vec4 far_y = vec4((box_y >> ray.far_shift.y) & 0xffffu) * ray.inverse_direction.y - ray.far_offset.y;
-      vec4 far_z = vec4((box_z >> ray.far_shift.z) & 0xffffu) * ray.inverse_direction.z - ray.far_offset.z;
-      vec4 t_near = max(max(near_x, near_y), max(near_z, vec4(0.0)));
-      vec4 t_far = min(min(far_x, far_y), min(far_z, vec4(hit.t)));
-      vec4 t = mix(vec4(kMiss), t_near, lessThanEqual(t_near, t_far));
-      // From so far away that rounding exceeds the grid, the inverted box of a missing child is met too.
-      t = mix(t, vec4(kMiss), equal(children, uvec4(PPM_BVH_EMPTY)));
-
-      order_pair(t.x, children.x, t.y, children.y);
-      order_pair(t.z, children.z, t.w, children.w);
-      order_pair(t.x, children.x, t.z, children.z);
-      order_pair(t.y, children.y, t.w, children.w);
-      order_pair(t.y, children.y, t.z, children.z);
-      if (t.w < kMiss) stack[depth++] = children.w;
-      if (t.z < kMiss) stack[depth++] = children.z;
-      if (t.y < kMiss) stack[depth++] = children.y;
-      if (t.x < kMiss) {
-        ref = children.x;
-      } else {
-        ref = depth > 0u ? stack[--depth] : PPM_BVH_EMPTY;
+  do {
+    do {
+      if ((ref & PPM_BVH_LEAF) == 0u) {
+        uvec4 box_x = PPM_FETCH(bvh_nodes, 4u * ref);
+        uvec4 box_y = PPM_FETCH(bvh_nodes, 4u * ref + 1u);
+        uvec4 box_z = PPM_FETCH(bvh_nodes, 4u * ref + 2u);
+        uvec4 children = PPM_FETCH(bvh_nodes, 4u * ref + 3u);
+        ivec4 keys = ascending(meet_children(box_x, box_y, box_z, children, ray, hit.t));
+        stack[depth] = child_of(children, keys.w);
+        depth += keys.w < kMissKey ? 1u : 0u;
+        stack[depth] = child_of(children, keys.z);
+        depth += keys.z < kMissKey ? 1u : 0u;
+        stack[depth] = child_of(children, keys.y);
+        depth += keys.y < kMissKey ? 1u : 0u;
+        if (keys.x < kMissKey) {
+          ref = child_of(children, keys.x);
+        } else {
+          ref = stack[--depth];
+        }
       }
-    }
+    } while ((ref & PPM_BVH_LEAF) == 0u);
     if (ref != PPM_BVH_EMPTY) {
       uint slot = ref & 0x1fffffffu;
       uint end = slot + ((ref >> 29u) & 3u) + 1u;
-      for (; slot < end; ++slot) {
+      do {
         float t;
         vec2 barycentric;
         if (slot != skip &&
@@ -160,10 +191,10 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
           hit = Hit(t, slot, barycentric);
           if (any) return hit;
         }
-      }
-      ref = depth > 0u ? stack[--depth] : PPM_BVH_EMPTY;
+      } while (++slot < end);
+      ref = stack[--depth];
     }
-  }
+  } while (ref != PPM_BVH_EMPTY);
   return hit;
 }
 

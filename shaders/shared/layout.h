@@ -19,9 +19,10 @@ PPM_NAMESPACE_BEGIN
 #define PPM_BVH_EMPTY 0xffffffffu  // a child that is not there; its box is inverted
 #define PPM_BVH_LEAF 0x80000000u   // set in references to leaves, but PPM_BVH_EMPTY
 
-// Four children. Word i of box_x holds child i's lower plane in the low half, its upper plane in
-// the high half, both on the scene-wide grid of 65536 planes. A reference is an inner node's index,
-// or PPM_BVH_LEAF | (count - 1) << 29 | first slot, count in [1, PPM_BVH_MAX_LEAF], first < 2^29.
+// Four children. Planes lie on the scene-wide grid of 65536 an axis, two to a word: words 0 and 1
+// of box_x hold the lower planes of children 0 to 3, words 2 and 3 their upper ones, even children
+// in the low halves. A reference is an inner node's index, or PPM_BVH_LEAF | (count - 1) << 29 |
+// first slot, count in [1, PPM_BVH_MAX_LEAF], first < 2^29.
 struct BvhNode {
   uvec4 box_x, box_y, box_z;
   uvec4 children;

@@ -29,8 +29,11 @@ struct Planes {
 };
 
 Planes planes_of(const BvhNode& node, int slot) {
-  const glm::uvec3 words(node.box_x[slot], node.box_y[slot], node.box_z[slot]);
-  return {words & 0xffffu, words >> 16u};
+  const auto planes = [&](int word) {
+    const glm::uvec3 words(node.box_x[word], node.box_y[word], node.box_z[word]);
+    return slot % 2 == 0 ? words & 0xffffu : words >> 16u;
+  };
+  return {planes(slot / 2), planes(2 + slot / 2)};
 }
 
 bool is_leaf(std::uint32_t child) {
