@@ -1,9 +1,10 @@
-// Ray tracing pass [HOJ08 section 3.1]: one invocation follows one eye path for one segment.
+// Ray tracing pass [HOJ08 section 3.1]: one invocation follows one eye path for a few segments.
 //
-// Reads the scene and EYE_IN (or starts the eye paths of a tile's pixels); stages a hit point where the path meets a
-// surface with a non-specular part, and a record of light seen where it meets an emitter; writes EYE_OUT with the
-// paths that specular reflection and transmission, both at glass, make of it. The order of all three is
-// arbitrary; keys that follow from the path alone put hit points into canonical order afterwards.
+// Reads the scene and EYE_IN (or starts the eye paths of a tile's pixels); stores a hit point (HITS, STATISTICS) where
+// the path meets a surface with a non-specular part, and a record of light seen where it meets an emitter; follows one
+// of the paths that specular reflection and transmission, both at glass, make of it, and writes the other to EYE_OUT.
+// The order of all is arbitrary; HIT_KEYS, which follow from the path alone, put hit points into canonical order
+// afterwards. CELL_COUNT counts those of each (pixel, sample).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,8 +18,16 @@
 layout(push_constant, scalar) uniform PushBlock { EyePush push; };
 layout(binding = PPM_BIND_EYE_IN, scalar) readonly buffer EyeIn { EyePath eye_in[]; };
 layout(binding = PPM_BIND_EYE_OUT, scalar) writeonly buffer EyeOut { EyePath eye_out[]; };
-layout(binding = PPM_BIND_STAGED_HITS, scalar) writeonly buffer StagedHits { HitPoint staged_hits[]; };
-layout(binding = PPM_BIND_STAGED_KEYS, scalar) writeonly buffer StagedKeys { StagedKey staged_keys[]; };
+layout(binding = PPM_BIND_HITS_0, scalar) writeonly buffer Hits0 { uvec4 hits_0[]; };
+layout(binding = PPM_BIND_HITS_1, scalar) writeonly buffer Hits1 { uvec4 hits_1[]; };
+layout(binding = PPM_BIND_HITS_2, scalar) writeonly buffer Hits2 { uvec4 hits_2[]; };
+layout(binding = PPM_BIND_HITS_3, scalar) writeonly buffer Hits3 { uvec4 hits_3[]; };
+layout(binding = PPM_BIND_STATISTICS, scalar) writeonly buffer Statistics { vec4 statistics[]; };
+layout(binding = PPM_BIND_HIT_KEYS, scalar) writeonly buffer HitKeys { HitKey hit_keys[]; };
+layout(binding = PPM_BIND_CELL_COUNT, scalar) buffer Counts { uint counts[]; };
+
+// Whether invocations start the eye paths of the tile, rather than going on with those of EYE_IN.
+layout(constant_id = 0) const bool kGenerate = false;
 
 bool hit_filter(uint triangle, vec2 barycentric) { return true; }
 
@@ -26,21 +35,21 @@ const float kLeastFootprint = 1e-15;
 const uint kMaxSplits = 32u;  // bits of EyePath::code; later splits take one branch at random
 
 // Random blocks of an eye path: 0 places it on the film, 1 + n is its n-th specular event.
-RandomStream random_of(uint pixel, uint sample_index) {
-  return RandomStream(scene.seed, PPM_STREAM_EYE, push.pass,
-                      (push.tile_first + pixel) * push.samples + sample_index);
+RandomStream random_of(uint group) {
+  return RandomStream(scene.seed, PPM_STREAM_EYE, push.pass, push.tile_first * push.samples + group);
 }
 
-EyePath start(uint item) {
-  EyePath path;
-  path.pixel = item / push.samples;
-  path.sample_index = item % push.samples;
-  uvec2 position = pixel_position(push.tile_first + path.pixel, scene.width, scene.height);
-  vec4 u = random_units(random_of(path.pixel, path.sample_index), 0u);
+EyePath start(uint group) {
+  uint pixel = group / push.samples;
+  uint sample_index = group - pixel * push.samples;
+  uvec2 position = pixel_position(push.tile_first + pixel, scene.width, scene.height);
+  vec4 u = random_units(random_of(group), 0u);
   // One shift for all samples of the pixel.
-  u.z = random_units(random_of(path.pixel, 0u), 0u).w;
-  vec2 film = film_sample(push.filter_kind, position.x, position.y, path.sample_index, push.samples, u.xyz);
+  u.z = random_units(random_of(pixel * push.samples), 0u).w;
+  vec2 film = film_sample(push.filter_kind, position.x, position.y, sample_index, push.samples, u.xyz);
+  EyePath path;
   path.origin = scene.camera_position;
+  path.group = group;
   path.direction = camera_direction(scene, film);
   path.state = 0u;
   path.weight = vec3(1.0);
@@ -48,128 +57,157 @@ EyePath start(uint item) {
   path.code = 0u;
   path.splits = 0u;
   path.distance = 0.0;
+  path.solid_angle = pixel_solid_angle(scene, camera_direction(scene, vec2(position) + 0.5));
   return path;
 }
 
-void stage(EyePath path, HitPoint hit, float footprint) {
-  if (!is_finite3(hit.weight) || !is_finite3(hit.position)) {
-    count_event(PPM_COUNTER_NON_FINITE);
-    return;
-  }
-  uint slot = atomicAdd(counters[PPM_COUNTER_HITS], 1u);
-  if (slot >= push.hit_capacity) return;  // the host sees the count and takes a smaller tile
+// The records a path leaves where it ends a segment: a hit point, light seen, or both. One loop for either, since
+// lavapipe runs the code of every branch. `records` are those the path has left in this dispatch.
+void stage(EyePath path, Surface surface, vec3 radiance, bool is_hit_point, bool is_light, inout uint records) {
   uint events = path.state & 0xffffu;
-  bool light = (hit.flags & PPM_HIT_EMISSION) != 0u;
-  staged_hits[slot] = hit;
-  staged_keys[slot] = StagedKey(path.pixel * push.samples + path.sample_index, 2u * events + (light ? 1u : 0u),
-                                path.code, footprint);
-}
-
-void stage_light(EyePath path, vec3 position, vec3 radiance) {
-  if (max_component(radiance) <= 0.0) return;
-  HitPoint hit = HitPoint(position, 0u, 0u, 0u, 0u, PPM_HIT_EMISSION,
-                          path.weight * radiance / float(push.samples), 0u, uvec4(0u));
-  stage(path, hit, 0.0);
-}
-
-void stage_hit_point(EyePath path, Surface surface) {
-  uint events = path.state & 0xffffu;
-  HitPoint hit;
-  hit.position = surface.position;
-  hit.geometric_normal = pack_direction(surface.geometric_normal);
-  hit.shading_normal = pack_direction(surface.shading_normal);
-  hit.outgoing = pack_direction(-path.direction);
-  hit.statistics = 0u;
-  hit.flags = min(events, 255u) << 8u;
-  hit.weight = path.weight / float(push.samples);
-  pack_bsdf(surface.bsdf, hit.bsdf, hit.bsdf_extra);
+  uint packed_geometric = pack_direction(surface.geometric_normal);
+  uvec2 packed_directions = uvec2(pack_direction(surface.shading_normal), pack_direction(-path.direction));
+  uvec4 bsdf;
+  uint bsdf_extra;
+  pack_bsdf(surface.bsdf, bsdf, bsdf_extra);
   float cosine = dot(path.direction, surface.geometric_normal);
   // Never 0, which would mark it as light seen: pixels may be smaller than single precision can square.
-  uvec2 pixel = pixel_position(push.tile_first + path.pixel, scene.width, scene.height);
-  float solid_angle = pixel_solid_angle(scene, camera_direction(scene, vec2(pixel) + 0.5));
-  stage(path, hit, max(footprint_radius(solid_angle, path.distance, cosine), kLeastFootprint));
-}
+  float footprint = max(footprint_radius(path.solid_angle, path.distance, cosine), kLeastFootprint);
+  vec3 weight = path.weight / float(push.samples);
 
-// Passes a branch on. Branches that weigh little survive in proportion to their weight (Russian roulette).
-void branch_on(EyePath path, float u) {
-  float weight = max_component(path.weight);
-  if (weight <= 0.0) return;
-  if (weight < push.split_weight) {
-    if (u * push.split_weight >= weight) return;
-    path.weight *= push.split_weight / weight;
+  uint last = is_light ? 2u : 1u;
+  for (uint kind = is_hit_point ? 0u : 1u; kind < last; ++kind) {
+    bool light = kind == 1u;
+    vec3 value = light ? weight * radiance : weight;
+    if (!is_finite3(value) || !is_finite3(surface.position)) {
+      count_event(PPM_COUNTER_NON_FINITE);
+      continue;
+    }
+    // No other path of its sample is about while the first is.
+    uint arrival = records++;
+    if (!kGenerate) arrival = atomicAdd(counts[path.group], 1u);
+    uint slot = atomicAdd(counters[PPM_COUNTER_HITS], 1u);
+    if (slot >= push.hit_capacity) continue;  // the host sees the count and traces again
+    hits_0[slot] = uvec4(floatBitsToUint(surface.position), light ? 0u : packed_geometric);
+    hits_1[slot] = uvec4(packed_directions, slot, light ? PPM_HIT_EMISSION : min(events, 255u) << 8u);
+    hits_2[slot] = uvec4(floatBitsToUint(value), light ? 0u : bsdf_extra);
+    hits_3[slot] = light ? uvec4(0u) : bsdf;
+    // Until the first radius is found its place holds the footprint; light seen has none and is never searched.
+    statistics[slot] = vec4(0.0, 0.0, 0.0, light ? 0.0 : square(footprint));
+    hit_keys[slot] = HitKey(path.group, arrival, 2u * events + kind, path.code);
   }
-  uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);
-  if (slot < push.path_capacity) eye_out[slot] = path;
 }
 
-void scatter(EyePath path, Surface surface, uint triangle) {
+// A branch that specular reflection or transmission makes of a path.
+struct Branch {
+  vec3 weight;
+  bool exists;
+};
+
+// Branches that weigh little survive in proportion to their weight (Russian roulette).
+Branch make_branch(vec3 weight, bool exists, float u) {
+  float largest = max_component(weight);
+  bool light = largest < push.split_weight;
+  bool survives = largest > 0.0 && (!light || u * push.split_weight < largest);
+  return Branch(weight * (light ? push.split_weight / largest : 1.0), exists && survives);
+}
+
+// What becomes of a path at a surface, with as few branches as can be: lavapipe runs the code of all.
+struct Scattering {
+  Branch reflected, transmitted;
+  bool split;
+  vec3 transmitted_direction;
+};
+
+Scattering scatter(EyePath path, Surface surface, bool goes_on) {
   vec3 wo = to_local(-path.direction, surface.shading_normal);
   SpecularLobes lobes = specular_lobes(surface.bsdf, wo.z);
   // Radiance is divided by the squared ratio of indices where it crosses an interface.
   lobes.transmitted /= square(surface.bsdf.eta);
   float reflected = mean_component(path.weight * lobes.reflected);
   float transmitted = mean_component(path.weight * lobes.transmitted);
-  if (reflected + transmitted <= 0.0) return;
+  goes_on = goes_on && reflected + transmitted > 0.0;
 
   uint events = path.state & 0xffffu;
-  vec4 u = random_units(random_of(path.pixel, path.sample_index), 1u + events);
+  vec4 u = random_units(random_of(path.group), 1u + events);
   bool both = reflected > 0.0 && transmitted > 0.0;
-  bool split = both && path.splits < kMaxSplits && max_component(path.weight) > push.split_weight;
-  bool only_reflected = !split && u.x * (reflected + transmitted) < reflected;
+  Scattering result;
+  result.split = both && path.splits < kMaxSplits && max_component(path.weight) > push.split_weight;
+  bool only_reflected = !result.split && u.x * (reflected + transmitted) < reflected;
+  float reflection = result.split ? 1.0 : reflected / (reflected + transmitted);
+  float transmission = result.split ? 1.0 : transmitted / (reflected + transmitted);
+  result.reflected =
+      make_branch(path.weight * lobes.reflected / reflection, goes_on && (result.split || only_reflected), u.y);
+  vec3 wi = specular_transmission(surface.bsdf, wo, lobes.cos_transmitted);
+  result.transmitted_direction = normalize(to_world(wi, surface.shading_normal));
+  bool through = dot(result.transmitted_direction, surface.geometric_normal) < 0.0;
+  result.transmitted =
+      make_branch(path.weight * lobes.transmitted / transmission, goes_on && !only_reflected && through, u.z);
+  return result;
+}
 
-  if (split || only_reflected) {
-    EyePath child = path;
-    float probability = split ? 1.0 : reflected / (reflected + transmitted);
-    child.weight = path.weight * lobes.reflected / probability;
-    child.direction = reflected_direction(surface, path.direction);
-    child.origin = offset_origin(surface.position, surface.geometric_normal);
-    child.state = (path.state & 0xffff0000u) | (events + 1u);
-    child.skip = triangle;
-    child.splits = path.splits + (split ? 1u : 0u);
-    branch_on(child, u.y);
+EyePath take_branch(EyePath path, Surface surface, Scattering scattering, uint triangle, bool transmitted) {
+  uint events = (path.state & 0xffffu) + 1u;
+  path.origin = offset_origin(surface.position, transmitted ? -surface.geometric_normal : surface.geometric_normal);
+  path.direction =
+      transmitted ? scattering.transmitted_direction : reflected_direction(surface, path.direction);
+  path.state = transmitted ? transmitted_state(surface, path.state, events) : (path.state & 0xffff0000u) | events;
+  path.weight = transmitted ? scattering.transmitted.weight : scattering.reflected.weight;
+  path.skip = triangle;
+  path.code |= transmitted && scattering.split ? 0x80000000u >> path.splits : 0u;
+  path.splits += scattering.split ? 1u : 0u;
+  return path;
+}
+
+void queue(EyePath path) {
+  uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);
+  if (slot < push.path_capacity) eye_out[slot] = path;
+}
+
+// One segment of a path and what happens at its end; of the branches, the reflected is followed if there is one, else
+// the transmitted, but none when it is the `last` segment here: whatever is not followed is queued. False: it is over.
+bool advance(inout EyePath path, bool last, inout uint records) {
+  Hit hit = closest_hit(path.origin, path.direction, path.skip);
+  uint events = path.state & 0xffffu;
+  bool missed = hit.triangle == PPM_NO_TRIANGLE;
+  if (missed) hit = Hit(0.0, 0u, vec2(0.0));  // any surface
+  bool in_depth = !missed && (scene.max_depth == 0u || events < scene.max_depth);
+  path.weight *= medium_transmittance(path.state, hit.t);
+  path.distance += hit.t;
+  Surface surface = surface_at(hit, path.direction);
+  vec3 radiance = missed ? miss_radiance(path.direction) : surface.emission;
+  stage(path, surface, radiance, in_depth && is_non_specular(surface.bsdf), max_component(radiance) > 0.0, records);
+  bool cut = in_depth && events >= scene.eye_bounce_cap;
+  if (cut) count_event(PPM_COUNTER_PATHS_CUT);
+
+  Scattering scattering = scatter(path, surface, in_depth && !cut);
+  bool reflected = scattering.reflected.exists;
+  bool transmitted = scattering.transmitted.exists;
+  bool follow = !last && (reflected || transmitted);
+  uint end = transmitted && (last || reflected) ? 2u : 1u;
+  for (uint branch = reflected && last ? 0u : 1u; branch < end; ++branch) {
+    queue(take_branch(path, surface, scattering, hit.triangle, branch == 1u));
   }
-  if (!only_reflected) {
-    EyePath child = path;
-    float probability = split ? 1.0 : transmitted / (reflected + transmitted);
-    child.weight = path.weight * lobes.transmitted / probability;
-    vec3 wi = specular_transmission(surface.bsdf, wo, lobes.cos_transmitted);
-    child.direction = normalize(to_world(wi, surface.shading_normal));
-    child.origin = offset_origin(surface.position, -surface.geometric_normal);
-    child.state = transmitted_state(surface, path.state, events + 1u);
-    child.skip = triangle;
-    if (split) {
-      child.code |= 0x80000000u >> path.splits;
-      child.splits = path.splits + 1u;
-    }
-    if (dot(child.direction, surface.geometric_normal) < 0.0) branch_on(child, u.z);
-  }
+  path = take_branch(path, surface, scattering, hit.triangle, !reflected);
+  return follow;
 }
 
 void main() {
   uint item = item_of_invocation(push.first);
   if (item >= push.first + push.count) return;
-  EyePath path;
-  if (push.generate != 0u) {
-    path = start(item);
+  uint records = 0u;
+  if (kGenerate) {
+    EyePath path = start(item);
+    advance(path, true, records);
+    counts[item] = records;
   } else {
-    path = eye_in[item];
+    EyePath path = eye_in[item];
+    bool alive = true;
+    uint bounce = 0u;
+    while (alive) {
+      ++bounce;
+      alive = advance(path, bounce == push.bounces, records);
+    }
+    if (push.bounces > 1u) atomicAdd(counters[PPM_COUNTER_EYE_RAYS], bounce);
   }
-  Hit hit = closest_hit(path.origin, path.direction, path.skip);
-  if (hit.triangle == PPM_NO_TRIANGLE) {
-    stage_light(path, vec3(0.0), miss_radiance(path.direction));
-    return;
-  }
-  path.weight *= medium_transmittance(path.state, hit.t);
-  path.distance += hit.t;
-  Surface surface = surface_at(hit, path.direction);
-  stage_light(path, surface.position, surface.emission);
-
-  uint events = path.state & 0xffffu;
-  if (scene.max_depth != 0u && events >= scene.max_depth) return;
-  if (is_non_specular(surface.bsdf)) stage_hit_point(path, surface);
-  if (events >= scene.eye_bounce_cap) {
-    count_event(PPM_COUNTER_PATHS_CUT);
-    return;
-  }
-  scatter(path, surface, hit.triangle);
 }

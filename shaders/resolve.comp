@@ -14,6 +14,7 @@ PPM_TEXELS(PPM_BIND_HITS_1, hits_1);
 PPM_TEXELS(PPM_BIND_HITS_2, hits_2);
 PPM_TEXELS(PPM_BIND_STATISTICS, statistics);
 layout(binding = PPM_BIND_SAMPLE_START, scalar) readonly buffer SampleStarts { uint sample_start[]; };
+layout(binding = PPM_BIND_ORDER, scalar) readonly buffer Order { uint order[]; };
 layout(binding = PPM_BIND_PIXELS, scalar) buffer Pixels { vec4 pixels[]; };
 
 void main() {
@@ -22,7 +23,8 @@ void main() {
   uint first = sample_start[pixel * push.samples] + push.skip;
   uint last = min(first + PPM_RESOLVE_SLICE, sample_start[(pixel + 1u) * push.samples]);
   vec3 sum = push.skip == 0u ? vec3(0.0) : pixels[pixel].xyz;
-  for (uint hit = first; hit < last; ++hit) {
+  for (uint i = first; i < last; ++i) {
+    uint hit = order[i];
     uvec4 plane1 = PPM_FETCH(hits_1, hit);
     vec3 weight = uintBitsToFloat(PPM_FETCH(hits_2, hit).xyz);
     if ((plane1.w & PPM_HIT_EMISSION) != 0u) {

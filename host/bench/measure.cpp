@@ -98,7 +98,6 @@ bool Run::start() {
   scene_ = std::make_unique<scene::Scene>(subject_.load(log_));
   settings_ = subject_.settings(*scene_, log_);
   lap("load");
-  if (interrupted_()) return false;
   device_ = std::make_unique<gpu::Device>(plan_.device);
   lap("device");
   integrator_ = render::make_integrator(settings_, *scene_, *device_, log_, plan_.threads);
@@ -294,14 +293,12 @@ std::uint64_t passes_until_half(double alpha) {
 std::optional<std::vector<Row>> measure(const std::vector<Case>& cases, const Plan& plan,
                                         const Poll& interrupted, Log& log,
                                         const std::function<void(const std::string&)>& tell) {
-  RowSet compilation;
-  std::vector<RowSet> sets(cases.size());
+  RowSet rows;
   for (unsigned repetition = 0; repetition < plan.repetitions; ++repetition) {
-    if (interrupted() || !measure_compilation(plan, interrupted, compilation)) return std::nullopt;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const Case& subject = cases[i];
+    if (interrupted() || !measure_compilation(plan, interrupted, rows)) return std::nullopt;
+    for (const Case& subject : cases) {
       tell(fmt::format("{}, repetition {} of {}", subject.name, repetition + 1, plan.repetitions));
-      Run run(subject, plan, interrupted, log, sets[i]);
+      Run run(subject, plan, interrupted, log, rows);
       if (!run.start() || !run.warm_up() || !run.measure_passes("")) return std::nullopt;
       if (plan.aged && repetition + 1 == plan.repetitions) {
         tell(fmt::format("{}, once radii have halved", subject.name));
@@ -310,11 +307,7 @@ std::optional<std::vector<Row>> measure(const std::vector<Case>& cases, const Pl
       run.check_validation();
     }
   }
-  std::vector<Row> rows = compilation.take();
-  for (RowSet& set : sets) {
-    for (Row& row : set.take()) rows.push_back(std::move(row));
-  }
-  return rows;
+  return rows.take();
 }
 
 }  // namespace ppm::bench

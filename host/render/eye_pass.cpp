@@ -12,6 +12,28 @@ namespace {
 // Glass splits a path in two while it weighs more than this. Chance in the eye pass leaves noise
 // that no photon pass removes, so it is left to what hardly shows.
 constexpr float kSplitWeight = 1.0f / 64.0f;
+// Hit points expected of an eye path before the first tile tells.
+constexpr double kHitsPerPath = 1.4;
+// More paths than the picture has are in a queue only where glass splits many of them: a small
+// picture's queue has room for this many.
+constexpr std::uint64_t kLeastQueue = 1u << 16;
+
+// Where few paths are left, rounds of one segment would cost more to submit than to trace.
+constexpr std::uint32_t kBouncesOfFew = 16;
+constexpr std::uint64_t kFewPaths = 4096;
+
+constexpr std::uint32_t kGenerate = 0;  // specialisation constant of eye.comp
+
+// Memory is made for this many times the hit points expected: tracing again would cost more. Where
+// in the end it is more than so many times what they take, they are copied.
+constexpr double kSpareRoom = 2.0;
+constexpr std::uint64_t kMostSpareRoom = 3;
+
+std::uint64_t queue_capacity(const Settings& settings, std::uint64_t hits) {
+  const std::uint64_t paths =
+      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
+  return std::min(hits, std::max(paths, kLeastQueue));
+}
 
 }  // namespace
 
@@ -25,113 +47,142 @@ EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Sett
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
       capacity_(tile_capacity(settings, device)),
-      hits_per_pixel_(1.4 * samples_),
+      queue_capacity_(queue_capacity(settings, capacity_)),
+      hits_per_pixel_(kHitsPerPath * samples_),
       table_(scene),
-      eye_(device, shaders::eye),
-      count_(device, shaders::eye_count),
+      start_(device, shaders::eye, {{kGenerate, 1}}),
+      continue_(device, shaders::eye, {{kGenerate, 0}}),
       scatter_(device, shaders::eye_scatter),
       order_(device, shaders::eye_order),
-      scan_(device, capacity_),
-      queue_{{device, "eye paths A", capacity_ * sizeof(shared::EyePath), gpu::Usage::storage},
-             {device, "eye paths B", capacity_ * sizeof(shared::EyePath), gpu::Usage::storage}},
-      staged_hits_(device, "staged hit points", capacity_ * sizeof(shared::HitPoint),
-                   gpu::Usage::storage),
-      staged_keys_(device, "staged keys", capacity_ * sizeof(shared::StagedKey),
-                   gpu::Usage::storage),
-      group_count_(device, "hit points a path", capacity_ * 4, gpu::Usage::storage),
-      order_list_(device, "hit point order", capacity_ * 4, gpu::Usage::storage),
+      scan_(device, queue_capacity_),
+      queue_{
+          {device, "eye paths A", queue_capacity_ * sizeof(shared::EyePath), gpu::Usage::storage},
+          {device, "eye paths B", queue_capacity_ * sizeof(shared::EyePath), gpu::Usage::storage}},
+      group_count_(device, "hit points a path", queue_capacity_ * 4, gpu::Usage::storage),
       counters_(device) {
-  if (samples_ > capacity_) {
+  if (samples_ > queue_capacity_) {
     throw Failure("", "--spp " + std::to_string(samples_),
                   "the eye paths of one pixel do not fit a tile",
-                  "use at most " + std::to_string(capacity_) + " or raise --tile-hits");
+                  "use at most " + std::to_string(queue_capacity_) + " or raise --tile-hits");
   }
-  table_.set(PPM_BIND_STAGED_HITS, staged_hits_);
-  table_.set(PPM_BIND_STAGED_KEYS, staged_keys_);
   table_.set(PPM_BIND_CELL_COUNT, group_count_);
-  table_.set(PPM_BIND_ORDER, order_list_);
   counters_.bind(table_);
-  device.run(
-      [&](gpu::Recorder& recorder) { recorder.fill(group_count_, 0, group_count_.bytes()); });
 }
 
 std::uint32_t EyePass::suggested_pixels() const {
-  const double most = std::max(hits_per_pixel_, static_cast<double>(samples_));
-  return static_cast<std::uint32_t>(std::max(1.0, 0.95 * static_cast<double>(capacity_) / most));
+  const double pixels = std::min(0.95 * static_cast<double>(capacity_) / hits_per_pixel_,
+                                 static_cast<double>(queue_capacity_ / samples_));
+  return static_cast<std::uint32_t>(std::max(1.0, pixels));
 }
 
 EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
                                const std::function<bool()>& interrupted, HitTile& tile) {
-  if (const Result result = trace_paths(first_pixel, pixels, interrupted); result != Result::done)
-    return result;
+  if (std::uint64_t{pixels} * samples_ > queue_capacity_) return Result::too_large;
   tile.first_pixel = first_pixel;
   tile.pixels = pixels;
-  tile.hits = counters_[PPM_COUNTER_HITS];
-  hits_per_pixel_ = std::max(hits_per_pixel_, static_cast<double>(tile.hits) / pixels);
+  const double expected = kSpareRoom * hits_per_pixel_ * pixels;
+  std::uint64_t room = std::min(capacity_, static_cast<std::uint64_t>(expected) + 1);
+  for (;;) {
+    reserve(tile, room);
+    const Result result = trace_paths(tile, room, interrupted);
+    if (result != Result::done) return result;
+    tile.hits = counters_[PPM_COUNTER_HITS];
+    hits_per_pixel_ = std::max(hits_per_pixel_, static_cast<double>(tile.hits) / pixels);
+    if (tile.hits <= room) break;
+    room = tile.hits;  // now it is known how many there are
+  }
   order_hits(tile);
+  if (room > kMostSpareRoom * tile.hits) tighten(tile);
   return Result::done;
 }
 
-EyePass::Result EyePass::trace_paths(std::uint32_t first_pixel, std::uint32_t pixels,
+void EyePass::reserve(HitTile& tile, std::uint64_t hits) {
+  const auto plane = [&](const char* name) {
+    return gpu::Buffer(device_, name, hits * 16, gpu::Usage::storage_and_texels);
+  };
+  tile.planes = {plane("hit points 0"), plane("hit points 1"), plane("hit points 2"),
+                 plane("hit points 3")};
+  tile.statistics = plane("statistics");
+  if (!keys_ || keys_.bytes() < hits * sizeof(shared::HitKey)) {
+    keys_ = {};
+    keys_ =
+        gpu::Buffer(device_, "hit point keys", hits * sizeof(shared::HitKey), gpu::Usage::storage);
+    arrivals_ = gpu::Buffer(device_, "hit points as found", hits * 4, gpu::Usage::storage);
+  }
+}
+
+EyePass::Result EyePass::trace_paths(const HitTile& tile, std::uint64_t room,
                                      const std::function<bool()>& interrupted) {
-  std::uint64_t alive = std::uint64_t{pixels} * samples_;
-  if (alive > capacity_) return Result::too_large;
+  gpu::BindingTable table = table_;
+  tile.bind_geometry(table);
+  table.set(PPM_BIND_STATISTICS, tile.statistics);
+  table.set(PPM_BIND_HIT_KEYS, keys_);
   shared::EyePush push{};
-  push.tile_first = first_pixel;
+  push.tile_first = tile.first_pixel;
   push.samples = samples_;
   push.filter_kind = static_cast<std::uint32_t>(filter_);
-  push.hit_capacity = static_cast<std::uint32_t>(capacity_);
-  push.path_capacity = static_cast<std::uint32_t>(capacity_);
+  push.hit_capacity = static_cast<std::uint32_t>(room);
+  push.path_capacity = static_cast<std::uint32_t>(queue_capacity_);
   push.split_weight = kSplitWeight;
+  std::uint64_t alive = std::uint64_t{tile.pixels} * samples_;
   rays_ = 0;
   for (std::uint32_t round = 0; alive > 0; ++round) {
     if (interrupted()) return Result::interrupted;
-    rays_ += alive;
-    push.generate = round == 0 ? 1 : 0;
-    table_.set(PPM_BIND_EYE_IN, queue_[round % 2]);
-    table_.set(PPM_BIND_EYE_OUT, queue_[(round + 1) % 2]);
+    push.bounces = alive > kFewPaths ? 1 : kBouncesOfFew;
+    if (round == 0 || push.bounces == 1) rays_ += alive;
+    table.set(PPM_BIND_EYE_IN, queue_[round % 2]);
+    table.set(PPM_BIND_EYE_OUT, queue_[(round + 1) % 2]);
     device_.run([&](gpu::Recorder& recorder) {
       if (round == 0) {
         counters_.clear(recorder);
       } else {
         counters_.clear(recorder, PPM_COUNTER_PATHS_OUT);
       }
-      recorder.dispatch(eye_, table_, push, alive);
+      recorder.dispatch(round == 0 ? start_ : continue_, table, push, alive);
       counters_.read(recorder);
     });
     alive = counters_[PPM_COUNTER_PATHS_OUT];
-    if (alive > capacity_ || counters_[PPM_COUNTER_HITS] > capacity_) return Result::too_large;
+    if (alive > queue_capacity_ || counters_[PPM_COUNTER_HITS] > capacity_)
+      return Result::too_large;
   }
+  rays_ += counters_[PPM_COUNTER_EYE_RAYS];
   return Result::done;
 }
 
 void EyePass::order_hits(HitTile& tile) {
   const std::uint32_t groups = tile.pixels * samples_;
-  const auto plane = [&](const char* name, std::uint64_t bytes) {
-    return gpu::Buffer(device_, name, tile.hits * bytes, gpu::Usage::storage_and_texels);
-  };
-  tile.planes = {plane("hit points 0", 16), plane("hit points 1", 16), plane("hit points 2", 16),
-                 plane("hit points 3", 16)};
   tile.sample_start =
       gpu::Buffer(device_, "hit points of samples", (groups + 1ull) * 4, gpu::Usage::storage);
-  tile.statistics = plane("statistics", 16);
+  tile.order = gpu::Buffer(device_, "hit point order", tile.hits * 4ull, gpu::Usage::storage);
   tile.photon_counts = gpu::Buffer(device_, "photon counts", tile.hits * 4ull, gpu::Usage::storage);
   tile.sums = gpu::Buffer(device_, "gather sums", tile.hits * sizeof(shared::GatherSum),
                           gpu::Usage::storage);
-  tile.bind(table_);
+  gpu::BindingTable table = table_;
+  tile.bind(table);
+  table.set(PPM_BIND_HIT_KEYS, keys_);
+  table.set(PPM_BIND_ARRIVALS, arrivals_);
 
   shared::EyeOrderPush push{};
   push.samples = samples_;
   device_.run([&](gpu::Recorder& recorder) {
-    recorder.dispatch(count_, table_, push, tile.hits);
     scan_.record(recorder, group_count_, tile.sample_start, groups);
-    recorder.dispatch(scatter_, table_, push, tile.hits);
-    recorder.dispatch(order_, table_, push, tile.hits);
+    recorder.dispatch(scatter_, table, push, tile.hits);
+    recorder.dispatch(order_, table, push, tile.hits);
     recorder.fill(tile.photon_counts, 0, tile.photon_counts.bytes());
     recorder.fill(tile.sums, 0, tile.sums.bytes());
     counters_.read(recorder);
   });
   tile.max_pixel_hits = counters_[PPM_COUNTER_MAX_PIXEL_HITS];
+}
+
+void EyePass::tighten(HitTile& tile) {
+  const auto copy_of = [&](gpu::Buffer& loose) {
+    gpu::Buffer tight(device_, loose.name(), tile.hits * 16ull, gpu::Usage::storage_and_texels);
+    device_.run([&](gpu::Recorder& recorder) { recorder.copy(loose, tight, tile.hits * 16ull); });
+    loose = std::move(tight);
+  };
+  for (gpu::Buffer& plane : tile.planes) copy_of(plane);
+  copy_of(tile.statistics);
 }
 
 }  // namespace ppm::render

@@ -15,7 +15,7 @@ namespace ppm::render {
 /// Hit points a tile holds at most: as many as asked for, or as the device's largest buffer takes.
 std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device);
 
-/// Queues and staging memory of the eye pass; needed only while tiles are made.
+/// Queues and sorting memory of the eye pass; needed only while tiles are made.
 class EyePass {
  public:
   EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Settings& settings);
@@ -26,7 +26,8 @@ class EyePass {
   enum class Result { done, too_large, interrupted };
 
   /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them.
-  /// too_large: a queue or the staging memory overflowed and fewer pixels must be tried.
+  /// too_large: a queue overflowed or a tile cannot hold the hit points, and fewer pixels must be
+  /// tried.
   Result trace(std::uint32_t first_pixel, std::uint32_t pixels,
                const std::function<bool()>& interrupted, HitTile& tile);
 
@@ -34,19 +35,25 @@ class EyePass {
   std::uint64_t rays() const { return rays_; }            ///< searches for the closest hit, idem
 
  private:
-  Result trace_paths(std::uint32_t first_pixel, std::uint32_t pixels,
+  /// Buffers for the geometry of so many hit points, and for sorting them.
+  void reserve(HitTile& tile, std::uint64_t hits);
+  /// Traces the tile's pixels. Stores as many hit points as there is room for, and counts all.
+  Result trace_paths(const HitTile& tile, std::uint64_t room,
                      const std::function<bool()>& interrupted);
   void order_hits(HitTile& tile);
+  /// Moves the geometry to buffers of exactly the size needed.
+  void tighten(HitTile& tile);
 
   gpu::Device& device_;
   std::uint32_t samples_;
   Filter filter_;
-  std::uint64_t capacity_;  ///< paths in a queue, and hit points
-  double hits_per_pixel_;
+  std::uint64_t capacity_;        ///< hit points of a tile
+  std::uint64_t queue_capacity_;  ///< eye paths of a tile, and paths in a queue
+  double hits_per_pixel_;         ///< expected of the next tile
   gpu::BindingTable table_;
-  gpu::Kernel eye_, count_, scatter_, order_;
+  gpu::Kernel start_, continue_, scatter_, order_;
   ExclusiveScan scan_;
-  gpu::Buffer queue_[2], staged_hits_, staged_keys_, group_count_, order_list_;
+  gpu::Buffer queue_[2], group_count_, keys_, arrivals_;
   Counters counters_;
   std::uint64_t rays_ = 0;
 };

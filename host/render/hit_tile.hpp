@@ -1,4 +1,4 @@
-// The hit points of a range of pixels, in canonical order, and the statistics each of them feeds.
+// The hit points of a range of pixels, and the statistics each of them feeds.
 #pragma once
 
 #include <array>
@@ -8,16 +8,18 @@
 
 namespace ppm::render {
 
-/// Pixels [first_pixel, first_pixel + pixels) in the order of shared/camera.h. Buffers of exactly
-/// the size needed.
+/// Pixels [first_pixel, first_pixel + pixels) in the order of shared/camera.h. Hit points lie as
+/// they were found, about in the order of pixels; `order` says which is where in canonical order, a
+/// function of the scene and the options alone. Buffers hold `hits` records or some more.
 struct HitTile {
   std::uint32_t first_pixel = 0, pixels = 0;
   std::uint32_t hits = 0;            ///< records: hit points, and light seen
-  std::uint32_t max_pixel_hits = 0;  ///< most records of one pixel
+  std::uint32_t max_pixel_hits = 0;  ///< most records of one pixel, if above PPM_RESOLVE_SLICE
 
   // Geometry: written once by the eye pass.
   std::array<gpu::Buffer, 4> planes;
-  gpu::Buffer sample_start;  ///< first record of each (pixel, sample), and the end
+  gpu::Buffer sample_start;  ///< first entry in `order` of each (pixel, sample), and the end
+  gpu::Buffer order;         ///< record of each place in canonical order
 
   // Statistics, indexed apart from geometry.
   gpu::Buffer
@@ -25,12 +27,16 @@ struct HitTile {
   gpu::Buffer photon_counts;  ///< uint: C
   gpu::Buffer sums;           ///< GatherSum, all zero between passes
 
-  void bind(gpu::BindingTable& table) const {
+  void bind_geometry(gpu::BindingTable& table) const {
     table.set(PPM_BIND_HITS_0, planes[0]);
     table.set(PPM_BIND_HITS_1, planes[1]);
     table.set(PPM_BIND_HITS_2, planes[2]);
     table.set(PPM_BIND_HITS_3, planes[3]);
+  }
+  void bind(gpu::BindingTable& table) const {
+    bind_geometry(table);
     table.set(PPM_BIND_SAMPLE_START, sample_start);
+    table.set(PPM_BIND_ORDER, order);
     table.set(PPM_BIND_STATISTICS, statistics);
     table.set(PPM_BIND_PHOTON_COUNTS, photon_counts);
     table.set(PPM_BIND_GATHER_SUMS, sums);

@@ -106,11 +106,11 @@ SavedState PpmIntegrator::save_state() {
                       statistics_.photons_stored, statistics_.hit_points};
   append(state, &header, sizeof header);
   for (const HitTile& tile : tiles_) {
-    // By record, not by tile: how the picture is cut into tiles may differ when the rendering goes
-    // on.
+    // In canonical order and without a mark between tiles: how the picture is cut into tiles may
+    // differ when the rendering goes on.
     const auto statistics = tile.statistics.download<glm::vec4>(tile.hits);
     const auto counts = tile.photon_counts.download<std::uint32_t>(tile.hits);
-    for (std::uint32_t i = 0; i < tile.hits; ++i) {
+    for (const std::uint32_t i : tile.order.download<std::uint32_t>(tile.hits)) {
       append(state, &statistics[i], sizeof statistics[i]);
       append(state, &counts[i], sizeof counts[i]);
     }
@@ -132,9 +132,10 @@ void PpmIntegrator::restore_state(const SavedState& state) {
   for (HitTile& tile : tiles_) {
     std::vector<glm::vec4> statistics(tile.hits);
     std::vector<std::uint32_t> counts(tile.hits);
-    for (std::uint32_t i = 0; i < tile.hits; ++i, next += kRecord) {
+    for (const std::uint32_t i : tile.order.download<std::uint32_t>(tile.hits)) {
       std::memcpy(&statistics[i], next, sizeof statistics[i]);
       std::memcpy(&counts[i], next + sizeof statistics[i], sizeof counts[i]);
+      next += kRecord;
     }
     tile.statistics.upload(std::span<const glm::vec4>(statistics));
     tile.photon_counts.upload(std::span<const std::uint32_t>(counts));

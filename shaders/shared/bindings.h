@@ -33,11 +33,11 @@
 #define PPM_BIND_SCAN_SUMS 17   // uint a chunk of the scan
 
 // Eye pass.
-#define PPM_BIND_EYE_IN 18       // EyePath
-#define PPM_BIND_EYE_OUT 19      // EyePath
-#define PPM_BIND_STAGED_HITS 20  // HitPoint as found
-#define PPM_BIND_STAGED_KEYS 21  // StagedKey
-#define PPM_BIND_ORDER 22        // uint: staged hit of each slot
+#define PPM_BIND_EYE_IN 18    // EyePath
+#define PPM_BIND_EYE_OUT 19   // EyePath
+#define PPM_BIND_HIT_KEYS 20  // HitKey of each hit point
+#define PPM_BIND_ARRIVALS 21  // uint: hit points of each (pixel, sample), as they were stored
+#define PPM_BIND_ORDER 22     // uint: the same in canonical order
 
 // A tile's hit points and their statistics.
 #define PPM_BIND_HITS_0 23  // HitPoint, plane 0 .. 3: one uvec4 each

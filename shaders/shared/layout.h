@@ -135,6 +135,8 @@ struct SceneConstants {
 #define PPM_COUNTER_MAX_PIXEL_HITS 8  // most hit points of one pixel
 #define PPM_COUNTER_UNDECIDED 9       // hit points for which the pilot has no radius yet
 #define PPM_COUNTER_PHOTON_RAYS 10    // segments of the photon paths that have ended
+#define PPM_COUNTER_EYE_RAYS \
+  11  // segments of eye paths, in dispatches that follow them for several
 #define PPM_COUNTER_COUNT 16
 
 // ---- Batches of photon passes
@@ -144,15 +146,15 @@ struct SceneConstants {
 #define PPM_TRACE_ROUNDS 32  // rounds of bounces recorded at a time; an even number
 #define PPM_GO_ON 0xffffffffu
 
-// What the device decides about a batch while no host looks on, and tells when all is done. All zero
-// at the beginning but go_on and the first of `alive`.
+// What the device decides about a batch while no host looks on, and tells when all is done. All
+// zero at the beginning but go_on and the first of `alive`.
 struct BatchWords {
   uint go_on;      // PPM_GO_ON: what is recorded may run. 0: something did not fit, and it must not
   uint completed;  // passes whose searches are complete
-  uint clamped, overflow;             // the counters of these names after the last completed pass
-  uint alive[PPM_TRACE_ROUNDS + 1];   // paths that each round begins with
-  uint photons[PPM_BATCH_LIMIT];      // of each pass; more than its share: they do not fit
-  uint sortable[PPM_BATCH_LIMIT];     // the same once all of the batch are known to fit
+  uint clamped, overflow;            // the counters of these names after the last completed pass
+  uint alive[PPM_TRACE_ROUNDS + 1];  // paths that each round begins with
+  uint photons[PPM_BATCH_LIMIT];     // of each pass; more than its share: they do not fit
+  uint sortable[PPM_BATCH_LIMIT];    // the same once all of the batch are known to fit
 };
 
 struct BatchCheckPush {
@@ -181,11 +183,11 @@ struct PhotonPath {
 
 struct PhotonPush {
   uint first, count;
-  uint pass;        // number of the batch's first pass, RNG counter
-  uint paths;       // of each pass that are traced here
-  uint passes;      // of the batch; paths * passes < 2^24 unless it is 1
-  uint emit_first;  // number of each pass's first path here, RNG counter
-  uint generate;    // 1: items are new paths; 0: items are PATHS_IN
+  uint pass;          // number of the batch's first pass, RNG counter
+  uint paths;         // of each pass that are traced here
+  uint passes;        // of the batch; paths * passes < 2^24 unless it is 1
+  uint emit_first;    // number of each pass's first path here, RNG counter
+  uint generate;      // 1: items are new paths; 0: items are PATHS_IN
   uint photon_share;  // photons that each pass may store
   uint path_capacity;
   uint stream;  // PPM_STREAM_*
@@ -206,8 +208,8 @@ struct PhotonPush {
 struct GridConstants {
   vec3 origin;
   float inverse_cell;
-  uvec3 size;       // cells along each axis; coordinates are clamped to it
-  uint table_mask;  // hashed: table size - 1, a power of two less one; dense: 0xffffffff
+  uvec3 size;        // cells along each axis; coordinates are clamped to it
+  uint table_mask;   // hashed: table size - 1, a power of two less one; dense: 0xffffffff
   uint table_first;  // first entry of the table: each pass of a batch has one of its own
 };                   // 36
 
@@ -232,27 +234,27 @@ struct ScanPush {
 
 struct EyePath {
   vec3 origin;
-  uint pixel;      // within the tile
+  uint group;      // pixel of the tile * samples + sample
   vec3 direction;  // unit, the way it travels
   uint state;      // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
   vec3 weight;     // product of specular factors, times filter weight / samples a pixel
   uint skip;
-  uint sample_index;  // of the pixel
   uint code;          // which branch was taken at each split, first split in the highest bit
   uint splits;        // bits of code in use
   float distance;     // length of the path so far, working units
+  float solid_angle;  // of its pixel
 };                    // 64
 
 struct EyePush {
   uint first, count;
   uint pass;         // RNG counter, for methods that draw eye paths anew each pass
-  uint generate;     // 1: items are (pixel, sample) pairs; 0: items are EYE_IN
   uint tile_first;   // first pixel of the tile, in tile order
   uint samples;      // eye paths a pixel
   uint filter_kind;  // PPM_FILTER_*
   uint hit_capacity;
   uint path_capacity;
   float split_weight;  // both branches are followed while a path weighs more than this
+  uint bounces;        // that this dispatch follows a path at most
 };
 
 #define PPM_FILTER_BOX 0u
@@ -272,13 +274,13 @@ struct HitPoint {
   uvec4 bsdf;  // with bsdf_extra: the non-specular lobes, see pack_bsdf in bsdf.h
 };             // 64
 
-// Where a staged hit point belongs: the canonical order is by group, then by (order, code).
-struct StagedKey {
-  uint group;       // pixel of the tile * samples + sample
-  uint order;       // scattering events before it, times 2, plus 1 for light seen
-  uint code;        // EyePath::code
-  float footprint;  // radius of the pixel's footprint here, working units
-};                  // 16
+// Where a hit point belongs: the canonical order is by group, then by (order, code).
+struct HitKey {
+  uint group;    // pixel of the tile * samples + sample
+  uint arrival;  // how many of its group were stored before it: arbitrary
+  uint order;    // scattering events before it, times 2, plus 1 for light seen
+  uint code;     // EyePath::code
+};               // 16
 
 #define PPM_HIT_EMISSION 1u  // not a hit point but light seen: weight is what it adds to the pixel
 

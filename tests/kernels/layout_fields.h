@@ -44,15 +44,14 @@
   U1(r.first) U1(r.count) PPM_FIELDS_GRID_CONSTANTS(r.grid) U1(r.photon_share) U1(r.entries)
 #define PPM_FIELDS_SCAN_PUSH(r) U1(r.first) U1(r.count) U1(r.total) U1(r.slice)
 #define PPM_FIELDS_EYE_PATH(r) \
-  F3(r.origin) U1(r.pixel) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.sample_index) \
-  U1(r.code) U1(r.splits) F1(r.distance)
+  F3(r.origin) U1(r.group) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.code) \
+  U1(r.splits) F1(r.distance) F1(r.solid_angle)
 #define PPM_FIELDS_EYE_PUSH(r) \
-  U1(r.first) U1(r.count) U1(r.pass) U1(r.generate) U1(r.tile_first) U1(r.samples) \
-  U1(r.filter_kind) U1(r.hit_capacity) U1(r.path_capacity) F1(r.split_weight)
+  U1(r.first) U1(r.count) U1(r.pass) U1(r.tile_first) U1(r.samples) U1(r.filter_kind) U1(r.hit_capacity) U1(r.path_capacity) F1(r.split_weight) U1(r.bounces)
 #define PPM_FIELDS_HIT_POINT(r) \
   F3(r.position) U1(r.geometric_normal) U1(r.shading_normal) U1(r.outgoing) U1(r.statistics) \
   U1(r.flags) F3(r.weight) U1(r.bsdf_extra) U4(r.bsdf)
-#define PPM_FIELDS_STAGED_KEY(r) U1(r.group) U1(r.order) U1(r.code) F1(r.footprint)
+#define PPM_FIELDS_HIT_KEY(r) U1(r.group) U1(r.arrival) U1(r.order) U1(r.code)
 #define PPM_FIELDS_EYE_ORDER_PUSH(r) U1(r.first) U1(r.count) U1(r.samples)
 #define PPM_FIELDS_GATHER_SUM(r) \
   U1(r.count) U1(r.flux[0]) U1(r.flux[1]) U1(r.flux[2]) U1(r.flux[3]) U1(r.flux[4]) U1(r.flux[5]) \
@@ -87,7 +86,7 @@
   RECORD(EyePath, eye_path, PPM_FIELDS_EYE_PATH) \
   RECORD(EyePush, eye_push, PPM_FIELDS_EYE_PUSH) \
   RECORD(HitPoint, hit_point, PPM_FIELDS_HIT_POINT) \
-  RECORD(StagedKey, staged_key, PPM_FIELDS_STAGED_KEY) \
+  RECORD(HitKey, hit_key, PPM_FIELDS_HIT_KEY) \
   RECORD(EyeOrderPush, eye_order_push, PPM_FIELDS_EYE_ORDER_PUSH) \
   RECORD(GatherSum, gather_sum, PPM_FIELDS_GATHER_SUM) \
   RECORD(GatherCursor, gather_cursor, PPM_FIELDS_GATHER_CURSOR) \

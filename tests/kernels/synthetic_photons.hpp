@@ -61,6 +61,7 @@ inline render::HitTile make_tile(gpu::Device& device, std::span<const SyntheticH
                  upload("hits 2", Words(planes[2])), upload("hits 3", Words(planes[3]))};
   tile.statistics = upload("statistics", std::span<const glm::vec4>(statistics));
   tile.sample_start = upload("starts", std::span<const std::uint32_t>(starts));
+  tile.order = upload("order", std::span<const std::uint32_t>(starts));
   const std::vector<std::uint32_t> counts(hits.size(), 0);
   const std::vector<shared::GatherSum> sums(hits.size());
   tile.photon_counts = upload("counts", std::span<const std::uint32_t>(counts));
