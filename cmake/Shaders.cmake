@@ -1,10 +1,11 @@
-# ppm_add_shaders(TARGET NAME... ): compiles shaders/NAME.comp (or DIRECTORY/NAME.comp) to SPIR-V, checks it
-# with spirv-val and embeds it in the static library TARGET.
+# ppm_add_shaders(TARGET NAME... ): compiles shaders/NAME.comp (or DIRECTORY/NAME.comp) to SPIR-V, simplifies
+# it with spirv-opt, checks it with spirv-val and embeds it in the static library TARGET.
 #
 # Each shader becomes a `const ppm::gpu::Shader ppm::shaders::NAME` declared in the generated header TARGET.hpp;
 # the .spv files stay in the build tree for reading. A touched include rebuilds just the shaders that use it (depfile).
 find_program(PPM_GLSLANG glslangValidator REQUIRED)
 find_program(PPM_SPIRV_VAL spirv-val REQUIRED)
+find_program(PPM_SPIRV_OPT spirv-opt REQUIRED)
 
 function(ppm_add_shaders TARGET)
   cmake_parse_arguments(ARG "" "DIRECTORY" "NAMES" ${ARGN})
@@ -21,8 +22,9 @@ function(ppm_add_shaders TARGET)
       OUTPUT ${spv}
       COMMAND ${PPM_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shaders
               --depfile ${spv}.d -o ${spv} ${ARG_DIRECTORY}/${name}.comp
+      COMMAND ${CMAKE_COMMAND} -DSPIRV_OPT=${PPM_SPIRV_OPT} -DFILE=${spv} -P ${PROJECT_SOURCE_DIR}/cmake/OptimizeSpirv.cmake
       COMMAND ${PPM_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
-      DEPENDS ${ARG_DIRECTORY}/${name}.comp
+      DEPENDS ${ARG_DIRECTORY}/${name}.comp ${PROJECT_SOURCE_DIR}/cmake/OptimizeSpirv.cmake
       DEPFILE ${spv}.d
       VERBATIM)
     add_custom_command(
