@@ -14,6 +14,9 @@ constexpr float kMouth = 0.14f, kMouthHeight = 0.3f;
 // The shaft widens a little faster than the view through its mouth, so that the camera sees
 // nothing but its far end, neither the walls nor the lamp on one of them.
 constexpr float kWidening = 1.1f;
+// From its mouth to here the shaft is black, lest its walls send light out of the mouth sideways.
+constexpr float kCollar = 0.6f;
+constexpr std::uint32_t kCuts = 8;
 
 class Shaft {
  public:
@@ -46,6 +49,20 @@ void add_quad(Modeller& modeller, const std::array<glm::vec3, 4>& corners, std::
   });
 }
 
+/// The four walls between two distances, facing inwards.
+void add_walls(Modeller& modeller, const Shaft& shaft, float near, float far,
+               std::uint32_t material) {
+  constexpr std::array<std::array<float, 2>, 4> kRing = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (std::size_t i = 0; i < kRing.size(); ++i) {
+    const auto [x0, y0] = kRing[i];
+    const auto [x1, y1] = kRing[(i + 1) % kRing.size()];
+    add_quad(modeller,
+             {shaft.at(x0, y0, near), shaft.at(x1, y1, near), shaft.at(x1, y1, far),
+              shaft.at(x0, y0, far)},
+             kCuts, material);
+  }
+}
+
 }  // namespace
 
 scene::Scene make_dark_room(std::size_t triangles) {
@@ -54,16 +71,8 @@ scene::Scene make_dark_room(std::size_t triangles) {
   const Shaft shaft(scene.cameras.front());
   Modeller modeller(scene);
   const std::uint32_t paper = modeller.diffuse("paper", glm::vec3(0.75f));
-  constexpr std::uint32_t kCuts = 8;
-  const std::array<std::array<float, 2>, 4> ring = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto [x0, y0] = ring[i];
-    const auto [x1, y1] = ring[(i + 1) % 4];
-    add_quad(modeller,
-             {shaft.at(x0, y0, kNear), shaft.at(x0, y0, kFar), shaft.at(x1, y1, kFar),
-              shaft.at(x1, y1, kNear)},
-             kCuts, paper);
-  }
+  add_walls(modeller, shaft, kNear, kCollar, modeller.diffuse("soot", glm::vec3(0.0f)));
+  add_walls(modeller, shaft, kCollar, kFar, paper);
   add_quad(
       modeller,
       {shaft.at(-1, -1, kFar), shaft.at(1, -1, kFar), shaft.at(1, 1, kFar), shaft.at(-1, 1, kFar)},

@@ -98,6 +98,7 @@ bool Run::start() {
   scene_ = std::make_unique<scene::Scene>(subject_.load(log_));
   settings_ = subject_.settings(*scene_, log_);
   lap("load");
+  if (interrupted_()) return false;
   device_ = std::make_unique<gpu::Device>(plan_.device);
   lap("device");
   integrator_ = render::make_integrator(settings_, *scene_, *device_, log_, plan_.threads);
@@ -293,12 +294,14 @@ std::uint64_t passes_until_half(double alpha) {
 std::optional<std::vector<Row>> measure(const std::vector<Case>& cases, const Plan& plan,
                                         const Poll& interrupted, Log& log,
                                         const std::function<void(const std::string&)>& tell) {
-  RowSet rows;
+  RowSet compilation;
+  std::vector<RowSet> sets(cases.size());
   for (unsigned repetition = 0; repetition < plan.repetitions; ++repetition) {
-    if (interrupted() || !measure_compilation(plan, interrupted, rows)) return std::nullopt;
-    for (const Case& subject : cases) {
+    if (interrupted() || !measure_compilation(plan, interrupted, compilation)) return std::nullopt;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Case& subject = cases[i];
       tell(fmt::format("{}, repetition {} of {}", subject.name, repetition + 1, plan.repetitions));
-      Run run(subject, plan, interrupted, log, rows);
+      Run run(subject, plan, interrupted, log, sets[i]);
       if (!run.start() || !run.warm_up() || !run.measure_passes("")) return std::nullopt;
       if (plan.aged && repetition + 1 == plan.repetitions) {
         tell(fmt::format("{}, once radii have halved", subject.name));
@@ -307,7 +310,11 @@ std::optional<std::vector<Row>> measure(const std::vector<Case>& cases, const Pl
       run.check_validation();
     }
   }
-  return rows.take();
+  std::vector<Row> rows = compilation.take();
+  for (RowSet& set : sets) {
+    for (Row& row : set.take()) rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace ppm::bench

@@ -120,6 +120,7 @@ double number_of(const Json& entry, const char* key, const std::string& file) {
   if (value == entry.end() || !value->is_number()) {
     refuse(file, std::string("an entry of \"benchmarks\" has no number \"") + key + "\"");
   }
+  if (!(value->get<double>() >= 0.0)) refuse(file, std::string("a negative \"") + key + "\"");
   return value->get<double>();
 }
 

@@ -7,6 +7,7 @@
 #include "binary_tree.hpp"
 #include "failure.hpp"
 #include "grid.hpp"
+#include "node.hpp"
 #include "parallel.hpp"
 
 namespace ppm::bvh {
@@ -21,15 +22,6 @@ double half_area(const Box& box) {
   const glm::dvec3 size = glm::dvec3(box.upper[0], box.upper[1], box.upper[2]) -
                           glm::dvec3(box.lower[0], box.lower[1], box.lower[2]);
   return size.x * size.y + size.y * size.z + size.z * size.x;
-}
-
-BvhNode empty_node() {
-  const glm::uvec4 inverted(~0u, ~0u, 0u, 0u);  // lower planes 65535, upper 0
-  return {inverted, inverted, inverted, glm::uvec4(PPM_BVH_EMPTY)};
-}
-
-void set_half(std::uint32_t& word, int shift, std::uint32_t plane) {
-  word = (word & ~(0xffffu << shift)) | plane << shift;
 }
 
 // Entries of stack that a subtree can be held to: opened two binary levels at a time, every wide
@@ -150,17 +142,11 @@ Family Collapse::shallow_family(const BinaryNode& node) const {
 void Collapse::link(Child child, std::uint32_t parent, int slot, std::vector<BvhNode>& nodes,
                     Tally& tally) {
   const Box box = box_of(child);
-  BvhNode& node = nodes[parent];
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::uvec4& planes = axis == 0 ? node.box_x : axis == 1 ? node.box_y : node.box_z;
-    const int pair = slot / 2, shift = 16 * (slot % 2);
-    set_half(planes[pair], shift, grid_.plane_below(box.lower[axis], axis));
-    set_half(planes[2 + pair], shift, grid_.plane_above(box.upper[axis], axis));
-  }
+  set_child_box(nodes[parent], slot, box, grid_);
   if (!is_leaf(child)) return;
   const std::uint32_t first = child.is_primitive() ? child.index() : node_of(child).begin;
   const std::uint32_t count = child.is_primitive() ? 1 : node_of(child).count();
-  node.children[slot] = PPM_BVH_LEAF | (count - 1) << 29 | first;
+  nodes[parent].children[slot] = leaf_reference(first, count);
   tally.triangle_area += half_area(box) * count;
 }
 
@@ -218,23 +204,6 @@ void Collapse::join(Bvh& bvh, Tally tally) {
   });
   const double root_area = half_area(tree_.bounds);
   bvh.sah_cost = root_area > 0.0 ? (tally.node_area + tally.triangle_area) / root_area : 0.0;
-}
-
-// Entries in use at once when every child of every node on the way is hit and pushed before one is
-// popped. Children come behind their parents.
-std::uint32_t stack_depth_of(std::span<const BvhNode> nodes) {
-  std::vector<std::uint8_t> depth(nodes.size());
-  for (std::size_t i = nodes.size(); i-- > 0;) {
-    std::uint32_t count = 0, deepest = 0;
-    for (int slot = 0; slot < 4; ++slot) {
-      const std::uint32_t child = nodes[i].children[slot];
-      if (child == PPM_BVH_EMPTY) continue;
-      ++count;
-      deepest = std::max<std::uint32_t>(deepest, (child & PPM_BVH_LEAF) != 0 ? 1u : depth[child]);
-    }
-    depth[i] = static_cast<std::uint8_t>(count == 0 ? 0 : count - 1 + deepest);
-  }
-  return depth[0];
 }
 
 }  // namespace

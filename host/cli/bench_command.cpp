@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "bench_options.hpp"
 #include "builtin_scenes.hpp"
 #include "comparison.hpp"
 #include "driver.hpp"
@@ -58,21 +59,28 @@ std::vector<bench::Case> cases_for(const std::vector<std::string>& scenes,
   return cases;
 }
 
+/// The scenes of earlier results; `file` is theirs.
+std::vector<std::string> scenes_of(const bench::Results& results, const std::string& file) {
+  std::vector<std::string> scenes;
+  for (const bench::Row& row : results.rows) {
+    constexpr std::string_view kEnd = "/start";
+    if (!row.name.ends_with(kEnd)) continue;
+    const std::string scene = row.name.substr(0, row.name.size() - kEnd.size());
+    if (!is_scene(scene)) {
+      throw Failure(file, scene, "is no scene", "name SCENEs, or give --scaling as it was then");
+    }
+    scenes.push_back(scene);
+  }
+  return scenes;
+}
+
 std::vector<std::string> scenes_for(const BenchOptions& options,
                                     const std::optional<bench::Results>& old) {
   if (!options.scenes.empty()) return options.scenes;
+  if (old) return scenes_of(*old, options.compare.string());
   std::vector<std::string> scenes;
-  if (old) {
-    for (const bench::Row& row : old->rows) {
-      constexpr std::string_view kEnd = "/start";
-      if (row.name.ends_with(kEnd)) {
-        scenes.push_back(row.name.substr(0, row.name.size() - kEnd.size()));
-      }
-    }
-  }
-  if (scenes.empty()) {
-    for (const bench::BuiltinScene& scene : bench::builtin_scenes())
-      scenes.emplace_back(scene.name);
+  for (const bench::BuiltinScene& scene : bench::builtin_scenes()) {
+    scenes.emplace_back(scene.name);
   }
   return scenes;
 }

@@ -16,12 +16,6 @@ bool names_file(const std::string& scene) {
   return scene.ends_with(".glb") || scene.ends_with(".gltf");
 }
 
-void check_scene(const std::string& scene) {
-  if (names_file(scene) || !bench::find_builtin_scenes(scene).empty()) return;
-  throw refusal("SCENE", scene,
-                fmt::format("a .glb or .gltf file or one of {}", bench::builtin_scene_names()));
-}
-
 /// "10%" or "10": ten hundredths.
 std::optional<double> parse_percentage(std::string_view text) {
   if (text.ends_with('%')) text.remove_suffix(1);
@@ -74,6 +68,10 @@ void declare_results(Declarer& declare, BenchOptions& options) {
 
 }  // namespace
 
+bool is_scene(const std::string& name) {
+  return names_file(name) || !bench::find_builtin_scenes(name).empty();
+}
+
 void declare_bench(CLI::App& app, BenchOptions& options) {
   app.formatter(
       std::make_shared<HelpFormatter>("Usage: ppm-vk bench [SCENE...] [OPTIONS]\n"
@@ -93,7 +91,10 @@ void check_bench(const CLI::App& app, const BenchOptions& options) {
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     const std::string& scene = options.scenes[i];
     if (scene.starts_with('-')) throw CLI::ValidationError(scene, "no such option");
-    check_scene(scene);
+    if (!is_scene(scene)) {
+      throw refusal("SCENE", scene,
+                    fmt::format("a .glb or .gltf file or one of {}", bench::builtin_scene_names()));
+    }
     if (!options.json.empty() && names_file(scene) && same_file(options.json, scene)) {
       throw refusal("--json", options.json, "a file of its own");
     }

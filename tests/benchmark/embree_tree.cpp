@@ -5,7 +5,12 @@
 #include <chrono>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
+
+#include "failure.hpp"
+#include "grid.hpp"
+#include "node.hpp"
 
 namespace ppm::benchmark {
 namespace {
@@ -17,6 +22,7 @@ struct Element {
   unsigned count;  // children or triangles
   std::array<Element*, 4> children;
   std::array<RTCBounds, 4> bounds;
+  std::array<std::uint32_t, 4> triangles;
 };
 
 double half_area(const RTCBounds& box) {
@@ -27,16 +33,18 @@ double half_area(const RTCBounds& box) {
 
 void* new_element(RTCThreadLocalAllocator allocator, bool is_leaf, std::size_t count) {
   void* const memory = rtcThreadLocalAlloc(allocator, sizeof(Element), 16);
-  return new (memory) Element{is_leaf, static_cast<unsigned>(count), {}, {}};
+  return new (memory) Element{is_leaf, static_cast<unsigned>(count), {}, {}, {}};
 }
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned count, void*) {
   return new_element(allocator, false, count);
 }
 
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*, std::size_t count,
-                  void*) {
-  return new_element(allocator, true, count);
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
+                  std::size_t count, void*) {
+  auto* const leaf = static_cast<Element*>(new_element(allocator, true, count));
+  for (std::size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+  return leaf;
 }
 
 void set_children(void* node, void** children, unsigned count, void*) {
@@ -79,17 +87,58 @@ void split(const RTCBuildPrimitive* primitive, unsigned axis, float position, RT
   }
 }
 
-void measure(const Element& element, double area, EmbreeTree& tree) {
-  if (element.is_leaf) {
-    tree.sah_cost += area * element.count;
-    tree.references += element.count;
-    return;
-  }
-  ++tree.nodes;
-  tree.sah_cost += area;
-  for (unsigned i = 0; i < element.count; ++i)
-    measure(*element.children[i], half_area(element.bounds[i]), tree);
+bvh::Box box_of(const RTCBounds& b) {
+  return {bvh::Float4{b.lower_x, b.lower_y, b.lower_z, 0.0f},
+          bvh::Float4{b.upper_x, b.upper_y, b.upper_z, 0.0f}};
 }
+
+// Writes Embree's tree as the kernels read one: the boxes on the grid, the triangles of the leaves
+// one after another, those that were split once for each part.
+class Translation {
+ public:
+  Translation(const Element& root, const RTCBounds& bounds)
+      : grid_(bvh::Grid::over(box_of(bounds))) {
+    tree_.nodes.push_back(bvh::empty_node());
+    if (root.is_leaf) {
+      add_child(root, bounds, 0, 0);
+    } else {
+      fill(root, bounds, 0);
+    }
+    tree_.grid_origin = grid_.origin;
+    tree_.grid_step = grid_.step;
+    tree_.sah_cost /= half_area(bounds);
+    tree_.stack_depth = bvh::stack_depth_of(tree_.nodes);
+    if (tree_.stack_depth > PPM_BVH_STACK)
+      throw Failure("", "Embree's tree", "is too deep for the kernels", "measure another scene");
+  }
+
+  bvh::Bvh result() && { return std::move(tree_); }
+
+ private:
+  void fill(const Element& element, const RTCBounds& bounds, std::uint32_t index) {
+    tree_.sah_cost += half_area(bounds);
+    for (unsigned i = 0; i < element.count; ++i)
+      add_child(*element.children[i], element.bounds[i], index, static_cast<int>(i));
+  }
+
+  void add_child(const Element& child, const RTCBounds& bounds, std::uint32_t parent, int slot) {
+    bvh::set_child_box(tree_.nodes[parent], slot, box_of(bounds), grid_);
+    if (!child.is_leaf) {
+      const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
+      tree_.nodes.push_back(bvh::empty_node());
+      tree_.nodes[parent].children[slot] = index;
+      return fill(child, bounds, index);
+    }
+    const auto first = static_cast<std::uint32_t>(tree_.triangle_order.size());
+    tree_.nodes[parent].children[slot] = bvh::leaf_reference(first, child.count);
+    tree_.triangle_order.insert(tree_.triangle_order.end(), child.triangles.begin(),
+                                child.triangles.begin() + child.count);
+    tree_.sah_cost += half_area(bounds) * child.count;
+  }
+
+  bvh::Grid grid_;
+  bvh::Bvh tree_;
+};
 
 std::vector<RTCBuildPrimitive> boxes_of(std::span<const scene::Triangle> triangles,
                                         std::size_t capacity) {
@@ -122,7 +171,7 @@ EmbreeTree build_embree_tree(RTCDevice device, std::span<const scene::Triangle> 
                              bool spatial_splits) {
   const std::size_t capacity = spatial_splits ? triangles.size() * 2 : triangles.size();
   std::vector<RTCBuildPrimitive> boxes = boxes_of(triangles, capacity);
-  const double root_area = half_area(bounds_of(std::span(boxes).first(triangles.size())));
+  const RTCBounds bounds = bounds_of(std::span(boxes).first(triangles.size()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = spatial_splits ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   arguments.maxBranchingFactor = 4;
@@ -142,10 +191,7 @@ EmbreeTree build_embree_tree(RTCDevice device, std::span<const scene::Triangle> 
   const auto start = Clock::now();
   const auto* const root = static_cast<const Element*>(rtcBuildBVH(&arguments));
   tree.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  if (root != nullptr) {
-    measure(*root, root_area, tree);
-    tree.sah_cost /= root_area;
-  }
+  if (root != nullptr) tree.tree = Translation(*root, bounds).result();
   rtcReleaseBVH(arguments.bvh);
   return tree;
 }

@@ -14,6 +14,8 @@ class KernelRays {
  public:
   KernelRays(gpu::Device& device, const bvh::Bvh& tree, std::span<const scene::Triangle> triangles,
              std::span<const Ray> rays);
+  KernelRays(const KernelRays&) = delete;
+  KernelRays& operator=(const KernelRays&) = delete;
 
   /// Closest hits a second, by the wall clock.
   double rays_per_second();

@@ -1,22 +1,15 @@
 #include "passes.hpp"
 
-#include <chrono>
 #include <memory>
 
 #include "integrator.hpp"
+#include "timing.hpp"
 
 namespace ppm::benchmark {
 namespace {
 
 bool never() {
   return false;
-}
-
-template <typename Work>
-double seconds_of(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
