@@ -71,11 +71,10 @@ ivec4 meet_children(uvec4 box_x, uvec4 box_y, uvec4 box_z, uvec4 children, GridR
   meet_planes(box_y, ray.backward.y, inverse.y, ray.near_offset.y, ray.far_offset.y, near_y, far_y);
   meet_planes(box_z, ray.backward.z, inverse.z, ray.near_offset.z, ray.far_offset.z, near_z, far_z);
   ivec4 near = max(max(near_x, near_y), max(near_z, ivec4(0)));
-  ivec4 far = min(min(far_x, far_y), min(far_z, ivec4(floatBitsToInt(t_max))));
-  ivec4 keys = near & ~3 | ivec4(0, 1, 2, 3);
-  keys = mix(keys, ivec4(kMissKey), greaterThan(near, far));
-  // From so far away that rounding exceeds the grid, the inverted box of a missing child is met too.
-  return mix(keys, ivec4(kMissKey), equal(children, uvec4(PPM_BVH_EMPTY)));
+  // Nothing is met before -1: from so far away that rounding exceeds the grid, the inverted box of a missing child is.
+  ivec4 limit = mix(ivec4(floatBitsToInt(t_max)), ivec4(-1), equal(children, uvec4(PPM_BVH_EMPTY)));
+  ivec4 far = min(min(far_x, far_y), min(far_z, limit));
+  return mix(near & ~3 | ivec4(0, 1, 2, 3), ivec4(kMissKey), greaterThan(near, far));
 }
 
 ivec4 ascending(ivec4 k) {
@@ -161,6 +160,7 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
   do {
     do {
       if ((ref & PPM_BVH_LEAF) == 0u) {
+        uint below = stack[depth - 1u];  // before anything is written, lest a step wait for the stack
         uvec4 box_x = PPM_FETCH(bvh_nodes, 4u * ref);
         uvec4 box_y = PPM_FETCH(bvh_nodes, 4u * ref + 1u);
         uvec4 box_z = PPM_FETCH(bvh_nodes, 4u * ref + 2u);
@@ -175,7 +175,8 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
         if (keys.x < kMissKey) {
           ref = child_of(children, keys.x);
         } else {
-          ref = stack[--depth];
+          ref = below;
+          --depth;
         }
       }
     } while ((ref & PPM_BVH_LEAF) == 0u);
