@@ -1,154 +1,141 @@
 // The sums M(x) and tau_M(x) of [HOJ08 Eq. 11] over the photons in each hit point's disc.
 //
-// One invocation owns one hit point (or goes on with one search); it walks the cells its disc touches and adds to
-// its GATHER_SUMS: integers, so that neither the order of photons nor their division into chunks matters.
-// A search that meets more than PPM_GATHER_SLICE rows and photons leaves a cursor in CONTINUE_OUT.
+// One invocation owns one hit point and adds to its GATHER_SUMS: integers, so that neither the order of photons nor
+// their division into chunks matters. Hit points come in SEARCH_ORDER, so that those of a subgroup lie close together
+// and search together: they fetch the photons of the cells that any of them touches, each invocation one, hand them
+// round, and note a bit for each that lies in their own disc. What they found they add afterwards, each on its own.
+// A search that is too long for this is left to gather_slices.comp by a cursor in CONTINUE_OUT.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/invocation.glsl"
 
-#include "lib/counters.glsl"
-#include "lib/search.glsl"
-#include "shared/ppm.h"
+#include "lib/receiver.glsl"
+#include "lib/subgroup.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { GatherPush push; };
-layout(binding = PPM_BIND_SCENE_CONSTANTS, scalar) uniform SceneBlock { SceneConstants scene; };
-PPM_TEXELS(PPM_BIND_HITS_2, hits_2);
-PPM_TEXELS(PPM_BIND_HITS_3, hits_3);
-PPM_TEXELS(PPM_BIND_STATISTICS, statistics);
-layout(binding = PPM_BIND_GATHER_SUMS, scalar) buffer GatherSums { GatherSum gather_sums[]; };
-layout(binding = PPM_BIND_CONTINUE_IN, scalar) readonly buffer ContinueIn { GatherCursor continue_in[]; };
+PPM_TEXELS(PPM_BIND_SEARCH_ORDER, search_order);
 layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { GatherCursor continue_out[]; };
 
-// A hit point unpacked for evaluation.
-struct Receiver {
-  vec3 position;
-  vec3 geometric_normal;
-  vec3 shading_normal, tangent, bitangent;
-  vec3 wo;               // local
-  uint events;           // scattering events of its eye path
-  Bsdf bsdf;
+// Photons looked at before those that were found are added: the more, the more evenly the adding is shared.
+const uint kBatch = 64u;
+// Chunks of photons, as many as the subgroup has invocations, that it looks at in all. Loops of one invocation may
+// take 65535 turns altogether on some drivers.
+const uint kChunkBudget = 2048u;
+
+uint width() { return gl_SubgroupSize; }
+uint width_bits() { return uint(findMSB(gl_SubgroupSize)); }
+uint lane() { return gl_SubgroupInvocationID; }
+
+// A stretch of photons to look at, at most one an invocation, in one row of cells.
+struct Chunk {
+  uint begin, end;
+  uint y, z;
 };
 
-Receiver fetch_receiver(uint hit) {
-  uvec4 plane0 = PPM_FETCH(hits_0, hit);
-  uvec4 plane1 = PPM_FETCH(hits_1, hit);
-  Receiver receiver;
-  receiver.position = uintBitsToFloat(plane0.xyz);
-  receiver.geometric_normal = unpack_direction(plane0.w);
-  receiver.shading_normal = unpack_direction(plane1.x);
-  tangent_frame(receiver.shading_normal, receiver.tangent, receiver.bitangent);
-  vec3 outgoing = unpack_direction(plane1.y);
-  receiver.wo = vec3(dot(outgoing, receiver.tangent), dot(outgoing, receiver.bitangent),
-                     dot(outgoing, receiver.shading_normal));
-  receiver.events = (plane1.w >> 8u) & 0xffu;
-  receiver.bsdf = unpack_bsdf(PPM_FETCH(hits_3, hit), PPM_FETCH(hits_2, hit).w);
-  return receiver;
+Chunk chunk_of(Chunk chunks, uint source) {
+  return Chunk(subgroupShuffle(chunks.begin, source), subgroupShuffle(chunks.end, source),
+               subgroupShuffle(chunks.y, source), subgroupShuffle(chunks.z, source));
 }
 
-// Lavapipe runs the code of every branch, with lanes masked off, and an atomic lane by lane: so events are counted
-// in registers and told once a search.
-struct Sums {
-  uint count;
-  Fixed64 red, green, blue;
-  uint clamped, overflow;  // events
-};
+float squared_distance(vec3 a, vec3 b) {
+  precise vec3 offset = a - b;
+  precise float distance2 = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
+  return distance2;
+}
 
-void add_term(inout Fixed64 sum, float term, inout uint overflow) {
-  if (!(term >= 0.0 && term < PPM_FIXED_LIMIT)) {
-    overflow += 1u;
-    term = term > 0.0 ? PPM_FIXED_LIMIT * 0.5 : 0.0;
+// Which photons of the chunk lie in the disc, a bit each.
+uint photons_within(Chunk chunk, vec3 centre, float radius2) {
+  uint photon = chunk.begin + lane();
+  bool valid = photon < chunk.end;
+  vec3 position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? photon : 0u).xyz);
+  if (push.grid.table_mask != PPM_GRID_DENSE) {
+    uvec3 cell = grid_cell(push.grid, position);
+    valid = valid && cell.y == chunk.y && cell.z == chunk.z;
   }
-  uint carry;
-  sum = add_fixed(sum, to_fixed(term), carry);
-  overflow += carry;
-}
-
-// f_r * flux of a photon within the disc [HOJ08 Eq. 11], if it counts there.
-void add_photon(Receiver receiver, Photon photon, inout Sums sums) {
-  if (!accepts_photon(receiver.geometric_normal, photon.incident, photon.normal)) return;
-  if (scene.max_depth != 0u && photon.events + 1u + receiver.events > scene.max_depth) return;
-  sums.count += 1u;
-  vec3 wi = vec3(dot(photon.incident, receiver.tangent), dot(photon.incident, receiver.bitangent),
-                 dot(photon.incident, receiver.shading_normal));
-  float factor = merge_normal_factor(wi.z, dot(photon.incident, photon.normal));
-  if (factor > PPM_MAX_NORMAL_FACTOR) {
-    factor = PPM_MAX_NORMAL_FACTOR;
-    sums.clamped += 1u;
-  }
-  precise vec3 term = bsdf_eval(receiver.bsdf, receiver.wo, wi) * photon.flux * factor;
-  add_term(sums.red, term.x, sums.overflow);
-  add_term(sums.green, term.y, sums.overflow);
-  add_term(sums.blue, term.z, sums.overflow);
-}
-
-// Which of up to 32 photons lie in the disc, a bit each. Finding is cheap and adding dear, and invocations in step
-// take as long as the one with most to do: apart, neither waits for the other.
-uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
+  if (!valid) position = vec3(1e18);
   uint found = 0u;
-  for (uint i = first; i < last; ++i) {
-    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
-    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
+  for (uint i = 0u; i < width(); ++i) {
+    found |= squared_distance(subgroupShuffle(position, i), centre) <= radius2 ? 1u << i : 0u;
   }
   return found;
 }
 
-void leave_cursor(uint hit, uint row, uint offset) {
-  uint slot = atomicAdd(counters[PPM_COUNTER_CONTINUE], 1u);
-  if (slot < push.cursor_capacity) continue_out[slot] = GatherCursor(hit, row, offset);
-}
-
 void main() {
   uint item = item_of_invocation(push.first);
-  if (item >= push.first + push.count) return;
-  GatherCursor cursor = GatherCursor(item, 0u, 0u);
-  if (push.from_cursors != 0u) cursor = continue_in[item];
-  uint hit = cursor.hit;
-  float radius2 = uintBitsToFloat(PPM_FETCH(statistics, PPM_FETCH(hits_1, hit).z).w);
-  if (radius2 <= 0.0) return;  // light seen, not a hit point
-
-  vec3 position = uintBitsToFloat(PPM_FETCH(hits_0, hit).xyz);
-  CellBox box = cells_within(push.grid, position, radius2);
+  // Invocations beyond the end stay to help the others.
+  bool waiting = item < push.first + push.count;
+  uint order = waiting ? item : push.first;
+  uint hit = PPM_FETCH(search_order, order >> 2u)[order & 3u];
   Receiver receiver = fetch_receiver(hit);
-  Sums sums = Sums(0u, Fixed64(0u, 0u), Fixed64(0u, 0u), Fixed64(0u, 0u), 0u, 0u);
-  uint rows = row_count(box);
-  uint budget = PPM_GATHER_SLICE;
-  uint offset = cursor.offset;
-  for (uint row_index = cursor.row; row_index < rows; ++row_index) {
-    if (budget == 0u) {
-      leave_cursor(hit, row_index, offset);
-      break;
-    }
-    budget -= 1u;
-    CellRow row = cell_row(push.grid, box, row_index);
-    uint begin = row.begin + offset;
-    uint end = min(row.end, begin + budget);
-    for (uint first = begin; first < end; first += 32u) {
-      uint found = photons_within(row, position, radius2, first, min(first + 32u, end));
-      while (found != 0u) {
-        uint i = first + uint(findLSB(found));
-        found &= found - 1u;
-        add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, i), PPM_FETCH(sorted_flux, i)), sums);
+  float radius2 = fetch_radius2(hit);
+  CellBox own = cells_within(push.grid, receiver.position, radius2);
+  Sums sums = no_sums();
+  uint chunks_a_batch = kBatch >> width_bits();
+  uint budget = kChunkBudget;
+
+  // Those near the first that waits search with it; then the next, and those near that one.
+  for (uint leader = subgroup_min(waiting ? lane() : width()); leader < width();
+       leader = subgroup_min(waiting ? lane() : width())) {
+    uvec3 low = subgroupShuffle(own.low, leader);
+    uvec3 high = subgroupShuffle(own.high, leader);
+    uvec3 margin = max(high - low, uvec3(2u));
+    bool joins = waiting && all(greaterThanEqual(own.low + margin, low)) && all(lessThanEqual(own.high, high + margin));
+    waiting = waiting && !joins;
+    float reach2 = joins ? radius2 : -1.0;
+    CellBox box = CellBox(subgroup_min(joins ? own.low : low), subgroup_max(joins ? own.high : high));
+
+    uint rows = row_count(box);
+    for (uint first_row = 0u; first_row < rows && budget > 0u; first_row += width()) {
+      CellRow row = cell_row(push.grid, box, min(first_row + lane(), rows - 1u));
+      uint own_chunks = first_row + lane() < rows ? (row.end - row.begin + width() - 1u) >> width_bits() : 0u;
+      uint chunks_to_here = subgroup_inclusive_sum(own_chunks);
+      uint total = subgroupShuffle(chunks_to_here, width() - 1u);
+      bool affordable = total < budget;
+      budget = affordable ? budget - total - 1u : 0u;
+      if (!affordable) total = 0u;
+      // Chunk c of this row begins here, if c counts from the first row's first.
+      Chunk of_row = Chunk(row.begin - (chunks_to_here - own_chunks) * width(), row.end, row.y, row.z);
+
+      for (uint first_chunk = 0u; first_chunk < total; first_chunk += chunks_a_batch) {
+        // Each invocation finds out about one chunk of the batch.
+        uint number = first_chunk + lane();
+        uint source = 0u;
+        for (uint i = 0u; i < width(); ++i) source += subgroupShuffle(chunks_to_here, i) <= number ? 1u : 0u;
+        Chunk batch = chunk_of(of_row, min(source, width() - 1u));
+        batch.begin += number * width();
+
+        uvec2 found = uvec2(0u);
+        uint count = min(chunks_a_batch, total - first_chunk);
+        for (uint i = 0u; i < count; ++i) {
+          uint bits = photons_within(chunk_of(batch, i), receiver.position, reach2);
+          uint place = i * width();
+          found.x |= place < 32u ? bits << place : 0u;
+          found.y |= place >= 32u ? bits << (place - 32u) : 0u;
+        }
+        uint most = subgroup_max(bitCount(found.x) + bitCount(found.y));
+        for (uint i = 0u; i < most; ++i) {
+          bool low_word = found.x != 0u;
+          uint word = low_word ? found.x : found.y;
+          uint bit = uint(findLSB(word)) & 31u;
+          uint place = bit + (low_word ? 0u : 32u);
+          uint photon = subgroupShuffle(batch.begin, place >> width_bits()) + (place & (width() - 1u));
+          add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, photon), PPM_FETCH(sorted_flux, photon)),
+                     word != 0u, sums);
+          word &= word - 1u;
+          if (low_word) {
+            found.x = word;
+          } else {
+            found.y = word;
+          }
+        }
       }
     }
-    budget -= end - begin;
-    if (end < row.end) {
-      leave_cursor(hit, row_index, end - row.begin);
-      break;
+    if (budget == 0u && joins) {
+      sums = no_sums();
+      uint slot = atomicAdd(counters[PPM_COUNTER_CONTINUE], 1u);
+      if (slot < push.cursor_capacity) continue_out[slot] = GatherCursor(hit, 0u, 0u);
     }
-    offset = 0u;
   }
-  if (sums.count == 0u) return;
-  GatherSum total = gather_sums[hit];
-  uint carry0, carry1, carry2;
-  Fixed64 red = add_fixed(Fixed64(total.flux[0], total.flux[1]), sums.red, carry0);
-  Fixed64 green = add_fixed(Fixed64(total.flux[2], total.flux[3]), sums.green, carry1);
-  Fixed64 blue = add_fixed(Fixed64(total.flux[4], total.flux[5]), sums.blue, carry2);
-  sums.overflow += carry0 + carry1 + carry2;
-  if (sums.overflow != 0u) atomicAdd(counters[PPM_COUNTER_OVERFLOW], sums.overflow);
-  if (sums.clamped != 0u) atomicAdd(counters[PPM_COUNTER_CLAMPED], sums.clamped);
-  total.count += sums.count;
-  total.flux = uint[6](red.low, red.high, green.low, green.high, blue.low, blue.high);
-  gather_sums[hit] = total;
+  add_to_hit_point(hit, sums);
 }

@@ -11,13 +11,19 @@ namespace {
 constexpr std::uint32_t kPilotPhotons = 20;
 // A first disc is never smaller than this many footprints of its pixel.
 constexpr float kLeastFootprints = 0.5f;
+// Cells of the search order, in cells of the photons' grid.
+constexpr float kOrderCell = 1.0f;
 
 }  // namespace
 
-Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t tile_hits)
+Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, const SceneTraits& traits,
+                     std::uint64_t tile_hits)
     : device_(device),
       scene_(scene),
-      gather_(device, shaders::gather),
+      order_(device, traits, tile_hits),
+      gather_(device, shaders::gather, {{PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss ? 1u : 0u}}),
+      gather_slices_(device, shaders::gather_slices,
+                     {{PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss ? 1u : 0u}}),
       update_(device, shaders::update),
       resolve_(device, shaders::resolve),
       radius_(device, shaders::radius),
@@ -46,15 +52,14 @@ Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& gri
   shared::GatherPush push{};
   push.grid = grid.constants();
   push.cursor_capacity = static_cast<std::uint32_t>(cursor_capacity_);
-  std::uint32_t searches = tile.hits;
+  std::uint32_t searches = tile.searches;
   Rejected rejected;
   for (std::uint32_t round = 0; searches > 0; ++round) {
-    push.from_cursors = round == 0 ? 0 : 1;
     table.set(PPM_BIND_CONTINUE_IN, cursors_[round % 2]);
     table.set(PPM_BIND_CONTINUE_OUT, cursors_[(round + 1) % 2]);
     device_.run([&](gpu::Recorder& recorder) {
       counters_.clear(recorder);
-      recorder.dispatch(gather_, table, push, searches);
+      recorder.dispatch(round == 0 ? gather_ : gather_slices_, table, push, searches);
       counters_.read(recorder);
     });
     rejected.overflow += counters_[PPM_COUNTER_OVERFLOW];
@@ -131,9 +136,10 @@ std::uint32_t Estimator::pilot_decide(const HitTile& tile, const PilotRound& rou
   return counters_[PPM_COUNTER_UNDECIDED];
 }
 
-void Estimator::measure_radii(std::span<const HitTile> tiles) {
+void Estimator::prepare_searches(std::span<HitTile> tiles) {
   // An update without photons changes no hit point and counts all radii.
   update(tiles, 0.5f);
+  for (HitTile& tile : tiles) order_.sort(tile, kOrderCell * cell_size());
 }
 
 }  // namespace ppm::render

@@ -11,13 +11,15 @@
 #include "counters.hpp"
 #include "hit_tile.hpp"
 #include "photon_grid.hpp"
+#include "search_order.hpp"
 
 namespace ppm::render {
 
 class Estimator {
  public:
   /// `scene` is the table of scene buffers; hit points per tile are at most `tile_hits`.
-  Estimator(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t tile_hits);
+  Estimator(gpu::Device& device, const gpu::BindingTable& scene, const SceneTraits& traits,
+            std::uint64_t tile_hits);
 
   /// Adds the grid's photons to the sums of the tile's hit points [HOJ08 Eq. 11]. Returns how many
   /// terms were out of the range of fixed point and how many normal factors were clamped.
@@ -57,8 +59,9 @@ class Estimator {
   /// Ends the round; returns how many hit points of the tile are still without a radius.
   std::uint32_t pilot_decide(const HitTile& tile, const PilotRound& round);
 
-  /// Reads the histogram of radii without changing anything else.
-  void measure_radii(std::span<const HitTile> tiles);
+  /// Once radii are known and before the first `gather`: reads their histogram, and puts the tiles'
+  /// hit points in search order.
+  void prepare_searches(std::span<HitTile> tiles);
 
  private:
   gpu::BindingTable table_for(const HitTile& tile) const;
@@ -66,7 +69,8 @@ class Estimator {
 
   gpu::Device& device_;
   gpu::BindingTable scene_;
-  gpu::Kernel gather_, update_, resolve_, radius_, pilot_, pilot_decide_;
+  SearchOrder order_;
+  gpu::Kernel gather_, gather_slices_, update_, resolve_, radius_, pilot_, pilot_decide_;
   gpu::Buffer cursors_[2], histogram_buffer_;
   std::uint64_t cursor_capacity_;
   Counters counters_;

@@ -27,6 +27,10 @@ struct HitTile {
   gpu::Buffer photon_counts;  ///< uint: C
   gpu::Buffer sums;           ///< GatherSum, all zero between passes
 
+  // Made once radii are known.
+  gpu::Buffer search_order;    ///< uint: hit points (no light seen) in the order of SearchOrder
+  std::uint32_t searches = 0;  ///< how many
+
   void bind_geometry(gpu::BindingTable& table) const {
     table.set(PPM_BIND_HITS_0, planes[0]);
     table.set(PPM_BIND_HITS_1, planes[1]);
@@ -40,6 +44,7 @@ struct HitTile {
     table.set(PPM_BIND_STATISTICS, statistics);
     table.set(PPM_BIND_PHOTON_COUNTS, photon_counts);
     table.set(PPM_BIND_GATHER_SUMS, sums);
+    if (search_order) table.set(PPM_BIND_SEARCH_ORDER, search_order);
   }
 };
 

@@ -1,31 +1,18 @@
 #include "photon_grid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "failure.hpp"
 #include "ppm_shaders.hpp"
 #include "region.hpp"
-#include "shared/grid.h"
 
 namespace ppm::render {
 namespace {
 
-// Cells along one axis at most: a hashed table is that much longer than its power of two.
-constexpr std::uint32_t kMaxAxis = 65536;
-// A dense table may have this many entries: scanning a million costs some 10 ms on lavapipe.
-constexpr std::uint64_t kDenseEntries = 1u << 20;
-
-std::uint32_t suitable_entries(std::uint64_t photons) {
-  return static_cast<std::uint32_t>(
-      std::bit_ceil(std::clamp<std::uint64_t>(2 * photons, 1u << 16, 1u << 22)));
-}
-
 // One table of any kind for all photons, and as much more as the device has room for.
-std::uint64_t max_entries(const gpu::Device& device, std::uint64_t photons) {
-  return std::max<std::uint64_t>(
-      {kDenseEntries, suitable_entries(photons) + kMaxAxis, device.profile().grid_entries});
+std::uint64_t max_entries_on(const gpu::Device& device, std::uint64_t photons) {
+  return std::max(max_entries(hashed_entries_for(photons)), device.profile().grid_entries);
 }
 
 }  // namespace
@@ -35,8 +22,8 @@ PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 boun
     : device_(device),
       bounds_min_(bounds_min),
       bounds_max_(bounds_max),
-      table_entries_(hashed_entries != 0 ? hashed_entries : suitable_entries(photon_capacity)),
-      max_entries_(max_entries(device, photon_capacity)),
+      table_entries_(hashed_entries != 0 ? hashed_entries : hashed_entries_for(photon_capacity)),
+      max_entries_(max_entries_on(device, photon_capacity)),
       count_(device, shaders::grid_count),
       scatter_(device, shaders::grid_scatter),
       scan_(device, max_entries_),
@@ -50,39 +37,19 @@ PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 boun
   device.run([&](gpu::Recorder& recorder) { recorder.fill(cell_count_, 0, cell_count_.bytes()); });
 }
 
-PhotonGrid::Shape PhotonGrid::shape(float cell, std::uint64_t photons) const {
-  const glm::vec3 extent = bounds_max_ - bounds_min_;
-  const float largest = std::max({extent.x, extent.y, extent.z});
-  cell = std::clamp(cell, largest / static_cast<float>(kMaxAxis - 1), std::max(largest, 1e-30f));
-  const auto cells = [&](float length) {
-    return static_cast<std::uint32_t>(
-        std::clamp(std::floor(length / cell) + 1.0f, 1.0f, static_cast<float>(kMaxAxis)));
-  };
-  Shape shape{};
-  shape.constants.origin = bounds_min_;
-  shape.constants.inverse_cell = 1.0f / cell;
-  const glm::uvec3 size = {cells(extent.x), cells(extent.y), cells(extent.z)};
-  shape.constants.size = size;
-  const std::uint64_t dense = std::uint64_t{size.x} * size.y * size.z;
-  if (dense <= kDenseEntries) {
-    shape.constants.table_mask = PPM_GRID_DENSE;
-    shape.entries = static_cast<std::uint32_t>(dense);
-  } else {
-    const std::uint32_t hashed = std::min(table_entries_, suitable_entries(photons));
-    shape.constants.table_mask = hashed - 1;
-    shape.entries = hashed + size.x;
-  }
-  return shape;
+CellTable PhotonGrid::table(float cell, std::uint64_t photons) const {
+  return cell_table(bounds_min_, bounds_max_, cell,
+                    std::min(table_entries_, hashed_entries_for(photons)));
 }
 
 std::uint32_t PhotonGrid::most_passes(float cell, std::uint64_t expected_photons) const {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(
-      max_entries_ / shape(cell, expected_photons).entries, PPM_BATCH_LIMIT));
+      max_entries_ / table(cell, expected_photons).entries, PPM_BATCH_LIMIT));
 }
 
 shared::GridConstants PhotonGrid::constants(std::uint32_t pass) const {
-  shared::GridConstants constants = shape_.constants;
-  constants.table_first = pass * shape_.entries;
+  shared::GridConstants constants = cells_.constants;
+  constants.table_first = pass * cells_.entries;
   return constants;
 }
 
@@ -99,17 +66,17 @@ void PhotonGrid::build(gpu::Device& device, const gpu::BindingTable& photon_tabl
 void PhotonGrid::record(gpu::Recorder& recorder, const gpu::BindingTable& photon_table,
                         const Photons& photons, float cell) {
   const gpu::Region region(device_, "grid");
-  shape_ = shape(cell, photons.expected);
-  PPM_ASSERT(std::uint64_t{shape_.entries} * photons.passes <= max_entries_,
-             std::to_string(photons.passes) + " tables of " + std::to_string(shape_.entries));
+  cells_ = table(cell, photons.expected);
+  PPM_ASSERT(std::uint64_t{cells_.entries} * photons.passes <= max_entries_,
+             std::to_string(photons.passes) + " tables of " + std::to_string(cells_.entries));
   gpu::BindingTable table = photon_table;
   bind(table);
   table.set(PPM_BIND_CELL_COUNT, cell_count_);
-  const shared::GridPush push{0, 0, shape_.constants, photons.share, shape_.entries};
+  const shared::GridPush push{0, 0, cells_.constants, photons.share, cells_.entries};
   const gpu::DeviceCount count =
       photons.batch.sortable(photons.passes, photons.share, photons.expected);
   recorder.dispatch(count_, table, push, count);
-  scan_.record(recorder, cell_count_, cell_start_, shape_.entries * photons.passes);
+  scan_.record(recorder, cell_count_, cell_start_, cells_.entries * photons.passes);
   recorder.dispatch(scatter_, table, push, count);
 }
 

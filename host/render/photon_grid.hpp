@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "cell_table.hpp"
 #include "device_batch.hpp"
 #include "exclusive_scan.hpp"
 #include "kernel.hpp"
@@ -40,12 +41,8 @@ class PhotonGrid {
   shared::GridConstants constants(std::uint32_t pass = 0) const;
 
  private:
-  /// Size of a pass's table and the grid over it.
-  struct Shape {
-    shared::GridConstants constants;
-    std::uint32_t entries;
-  };
-  Shape shape(float cell, std::uint64_t photons) const;
+  /// Of one pass.
+  CellTable table(float cell, std::uint64_t photons) const;
 
   gpu::Device& device_;
   glm::vec3 bounds_min_, bounds_max_;
@@ -55,7 +52,7 @@ class PhotonGrid {
   ExclusiveScan scan_;
   gpu::Buffer cell_count_, cell_start_, sorted_position_, sorted_flux_;
   DeviceBatch single_;  ///< tells `build`'s kernels of its photons
-  Shape shape_{};       ///< of what was sorted last
+  CellTable cells_{};   ///< of what was sorted last
 };
 
 /// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their

@@ -47,7 +47,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       pipelines_begin_(clock_seconds()),
       tracer_(device, table_, photon_capacity(settings, device), kPathCapacity),
       grid_(device, scene.bounds_min, scene.bounds_max, photon_capacity(settings, device)),
-      estimator_(device, table_, tile_capacity(settings, device)),
+      estimator_(device, table_, buffers_.traits(), tile_capacity(settings, device)),
       chunk_paths_(static_cast<std::uint32_t>(
           std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
@@ -113,7 +113,7 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
   const float footprints = settings_.radius_mode == RadiusMode::footprint ? kFootprints : 0.0f;
   for (const HitTile& tile : tiles_) estimator_.set_radii(tile, fixed, footprints);
   if (automatic && !run_pilot(interrupted)) return false;
-  estimator_.measure_radii(tiles_);
+  estimator_.prepare_searches(tiles_);
   record_initial_radii();
   // The pilot's own tracing and sorting counts as pilot alone.
   statistics_.seconds = seconds_before;

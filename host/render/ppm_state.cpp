@@ -140,7 +140,7 @@ void PpmIntegrator::restore_state(const SavedState& state) {
     tile.statistics.upload(std::span<const glm::vec4>(statistics));
     tile.photon_counts.upload(std::span<const std::uint32_t>(counts));
   }
-  estimator_.measure_radii(tiles_);
+  estimator_.prepare_searches(tiles_);
   statistics_.passes = header.passes;
   statistics_.photons_emitted = header.photons_emitted;
   statistics_.photons_stored = header.photons_stored;

@@ -53,6 +53,7 @@
 #define PPM_BIND_CONTINUE_OUT 32      // GatherCursor
 #define PPM_BIND_PIXELS 33            // vec4: radiance of each pixel of the tile
 #define PPM_BIND_RADIUS_HISTOGRAM 34  // uint[PPM_RADIUS_BINS]
+#define PPM_BIND_SEARCH_ORDER 35      // uint: hit points, neighbours in space together
 
 // Batches of photon passes.
 #define PPM_BIND_BATCH 35  // BatchWords
@@ -73,5 +74,8 @@
 // (host/gpu/device_profile.hpp). Kernels' own ones are below.
 #define PPM_SPEC_WORKGROUP_SIZE 100    // invocations of a workgroup
 #define PPM_SPEC_ALTERNATE_HALVES 101  // bool: see shaders/lib/invocation.glsl
+
+// Those that the scene decides (shaders/lib/scene_kinds.glsl).
+#define PPM_SPEC_ROUGH_GLOSS 0  // bool: some material has a rough glossy lobe
 
 #endif  // PPM_SHARED_BINDINGS_H

@@ -19,6 +19,12 @@ PPM_NAMESPACE_BEGIN
 // alpha^2) = 1e5, more than progressive radii resolve in any reasonable time.
 #define PPM_DELTA_ROUGHNESS 0.03f
 
+// Kernels may define this as a specialisation constant: without rough gloss in the scene its code
+// need not be run.
+#ifndef PPM_ROUGH_GLOSS
+#define PPM_ROUGH_GLOSS true
+#endif
+
 struct Bsdf {
   DiffuseLobe diffuse;
   GgxLobe glossy;   // a mirror when alpha is 0
@@ -65,7 +71,7 @@ PPM_FN bool has_mirror(Bsdf bsdf) {
   return bsdf.glossy.alpha == 0.0f && has_glossy(bsdf);
 }
 PPM_FN bool has_rough_gloss(Bsdf bsdf) {
-  return bsdf.glossy.alpha > 0.0f && has_glossy(bsdf);
+  return PPM_ROUGH_GLOSS && bsdf.glossy.alpha > 0.0f && has_glossy(bsdf);
 }
 
 // Whether the surface has a non-specular component.
@@ -78,6 +84,36 @@ PPM_FN vec3 bsdf_eval(Bsdf bsdf, vec3 wo, vec3 wi) {
   if (wo.z <= 0.0f || wi.z <= 0.0f) return vec3(0.0f);
   vec3 f = diffuse_eval(bsdf.diffuse, wo.z, wi.z);
   if (has_rough_gloss(bsdf)) f += ggx_eval(bsdf.glossy, wo, wi);
+  return f;
+}
+
+// The same for many wi and one wo: what does not depend on wi is worked out once.
+struct BsdfTowards {
+  vec3 wo;
+  vec3 diffuse;  // diffuse_base
+  float coat_f0, coat_f90;
+  GgxLobe glossy;  // alpha is 0 without rough gloss
+};
+
+PPM_FN BsdfTowards bsdf_towards(Bsdf bsdf, vec3 wo) {
+  BsdfTowards result;
+  result.wo = wo;
+  result.diffuse = wo.z > 0.0f ? diffuse_base(bsdf.diffuse, wo.z) : vec3(0.0f);
+  result.coat_f0 = bsdf.diffuse.coat_f0;
+  result.coat_f90 = bsdf.diffuse.coat_f90;
+  result.glossy = bsdf.glossy;
+  if (wo.z <= 0.0f || !has_rough_gloss(bsdf)) result.glossy.alpha = 0.0f;
+  return result;
+}
+
+// bsdf_eval(bsdf, wo, wi) for wi.z > 0.
+PPM_FN vec3 bsdf_eval_towards(BsdfTowards bsdf, vec3 wi) {
+  DiffuseLobe coat;
+  coat.albedo = vec3(0.0f);
+  coat.coat_f0 = bsdf.coat_f0;
+  coat.coat_f90 = bsdf.coat_f90;
+  vec3 f = bsdf.diffuse * coat_transmittance(coat, wi.z);
+  if (PPM_ROUGH_GLOSS && bsdf.glossy.alpha > 0.0f) f += ggx_eval(bsdf.glossy, bsdf.wo, wi);
   return f;
 }
 

@@ -86,8 +86,9 @@ PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uin
               float(y) + 0.5f + sample_filter(filter_kind, b));
 }
 
-// Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), so that
-// neighbours in number are neighbours in the picture. Pixel number -> column and row.
+// Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), whole blocks
+// in pieces of 4 x 2, so that any aligned 8, 16, 32 or 64 in number lie close together in the
+// picture. Pixel number -> column and row.
 PPM_FN uvec2 pixel_position(uint number, uint width, uint height) {
   uint band = number / (8u * width);
   uint rows = min(8u, height - 8u * band);
@@ -95,7 +96,12 @@ PPM_FN uvec2 pixel_position(uint number, uint width, uint height) {
   uint block = rest / (8u * rows);
   uint columns = min(8u, width - 8u * block);
   rest -= block * 8u * rows;
-  return uvec2(8u * block + rest % columns, 8u * band + rest / columns);
+  uvec2 within = uvec2(rest % columns, rest / columns);
+  if (rows == 8u && columns == 8u) {
+    within.x = (rest & 3u) | ((rest >> 1u) & 4u);
+    within.y = ((rest >> 2u) & 1u) | ((rest >> 3u) & 6u);
+  }
+  return uvec2(8u * block + within.x, 8u * band + within.y);
 }
 
 PPM_NAMESPACE_END

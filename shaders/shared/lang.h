@@ -60,6 +60,10 @@ using glm::uintBitsToFloat;
 using glm::umulExtended;
 using glm::unpackHalf2x16;
 using glm::unpackUnorm2x16;
+// GLM's goes by way of int, which large numbers do not fit.
+inline float roundEven(float x) {
+  return std::nearbyint(x);
+}
 }  // namespace ppm::shared
 
 #else  // GLSL

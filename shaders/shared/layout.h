@@ -312,7 +312,6 @@ struct GatherCursor {
 
 struct GatherPush {
   uint first, count;
-  uint from_cursors;  // 0: items are hit points; 1: items are CONTINUE_IN
   uint cursor_capacity;
   GridConstants grid;
 };

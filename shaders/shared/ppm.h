@@ -78,9 +78,7 @@ PPM_FN Fixed64 to_fixed(float x) {
   float whole = floor(x);
   Fixed64 result;
   result.high = uint(whole);
-  float fraction = (x - whole) * 4294967296.0f;
-  // From 2^23 on a float is a whole number, which adding a half would round to an even one.
-  result.low = uint(fraction < 8388608.0f ? fraction + 0.5f : fraction);
+  result.low = uint(roundEven((x - whole) * 4294967296.0f));
   return result;
 }
 
@@ -99,6 +97,15 @@ PPM_FN Fixed64 add_fixed(Fixed64 a, Fixed64 b, PPM_OUT(uint) carry_out) {
   sum.high = uaddCarry(high, b.high, carry_out);
   carry_out |= carry_high;
   return sum;
+}
+
+// Adds x in [0, PPM_FIXED_LIMIT). Bit 31 of `highs` is set as soon as the sum passes 2^31, before it
+// could pass 2^32 unseen.
+PPM_FN void accumulate_fixed(PPM_INOUT(Fixed64) sum, float x, PPM_INOUT(uint) highs) {
+  Fixed64 term = to_fixed(x);
+  sum.low += term.low;
+  sum.high += term.high + (sum.low < term.low ? 1u : 0u);
+  highs |= sum.high;
 }
 
 PPM_NAMESPACE_END

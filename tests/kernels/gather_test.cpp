@@ -44,7 +44,7 @@ Sums words_of(const GatherSum& sum) {
 
 // 32.32 fixed point of a non-negative float, rounded to nearest, in double.
 std::uint64_t fixed(float x) {
-  return static_cast<std::uint64_t>(std::floor(static_cast<double>(x) * 4294967296.0 + 0.5));
+  return static_cast<std::uint64_t>(std::nearbyint(static_cast<double>(x) * 4294967296.0));
 }
 
 bool counts(const Photon& photon) {
@@ -82,8 +82,9 @@ class Gather : public DeviceTest {
  protected:
   std::vector<Sums> gather(std::span<const SyntheticHit> hits, std::span<const Photon> photons,
                            const Search& search) {
-    const render::HitTile tile = make_tile(device(), hits);
+    render::HitTile tile = make_tile(device(), hits);
     SyntheticEstimator estimator(device(), hits.size());
+    estimator->prepare_searches(std::span(&tile, 1));
     const std::size_t chunk = (photons.size() + search.chunks - 1) / search.chunks;
     render::PhotonGrid grid(device(), search.bounds_min, search.bounds_max, chunk,
                             search.hashed_entries);
@@ -275,8 +276,9 @@ TEST_F(Gather, NoPhotons) {
 TEST_F(Gather, UpdateTakesTheSumsAndClearsThem) {
   const std::vector<SyntheticHit> hits = uneven_hits(300, 18);
   const std::vector<Photon> photons = cloud(5000, 19);
-  const render::HitTile tile = make_tile(device(), hits);
+  render::HitTile tile = make_tile(device(), hits);
   SyntheticEstimator estimator(device(), hits.size());
+  estimator->prepare_searches(std::span(&tile, 1));
   render::PhotonGrid grid(device(), vec3(-1.0f), vec3(1.0f), photons.size());
   const PhotonBuffers buffers(device(), photons);
   grid.build(device(), buffers.table(), static_cast<std::uint32_t>(photons.size()), 0.05f);

@@ -58,8 +58,7 @@
   U1(r.nearby) U1(r.second_moment[0]) U1(r.second_moment[1])
 #define PPM_FIELDS_GATHER_CURSOR(r) U1(r.hit) U1(r.row) U1(r.offset)
 #define PPM_FIELDS_GATHER_PUSH(r) \
-  U1(r.first) U1(r.count) U1(r.from_cursors) U1(r.cursor_capacity) \
-  PPM_FIELDS_GRID_CONSTANTS(r.grid)
+  U1(r.first) U1(r.count) U1(r.cursor_capacity) PPM_FIELDS_GRID_CONSTANTS(r.grid)
 #define PPM_FIELDS_UPDATE_PUSH(r) U1(r.first) U1(r.count) F1(r.alpha)
 #define PPM_FIELDS_RESOLVE_PUSH(r) U1(r.first) U1(r.count) U1(r.samples) U1(r.skip) F1(r.scale)
 #define PPM_FIELDS_PILOT_PUSH(r) \

@@ -99,7 +99,7 @@ class SyntheticEstimator {
       : constants_(gpu::make_buffer(device, "scene constants",
                                     std::span<const shared::SceneConstants>(&kNoLimits, 1),
                                     gpu::Usage::uniform)),
-        estimator_(device, table(), tile_hits) {}
+        estimator_(device, table(), {}, tile_hits) {}
 
   render::Estimator* operator->() { return &estimator_; }
 

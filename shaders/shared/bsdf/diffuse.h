@@ -21,13 +21,17 @@ PPM_FN float coat_transmittance(DiffuseLobe lobe, float cosine) {
   return 1.0f - (lobe.coat_f0 + (lobe.coat_f90 - lobe.coat_f0) * schlick_weight(cosine));
 }
 
-// Both cosines positive. Per steradian; no cosine included.
-PPM_FN vec3 diffuse_eval(DiffuseLobe lobe, float cos_o, float cos_i) {
+// What of the lobe does not depend on cos_i.
+PPM_FN vec3 diffuse_base(DiffuseLobe lobe, float cos_o) {
   // Cosine-weighted hemispherical mean of Schlick's F; the integral of (1-c)^5 c is 1/42.
   float average = lobe.coat_f0 + (lobe.coat_f90 - lobe.coat_f0) * (1.0f / 21.0f);
-  float coat = coat_transmittance(lobe, cos_o) * coat_transmittance(lobe, cos_i) /
-               max(1.0f - average, 1e-6f);
-  return lobe.albedo * (PPM_INVERSE_PI * coat);
+  return lobe.albedo *
+         (PPM_INVERSE_PI * coat_transmittance(lobe, cos_o) / max(1.0f - average, 1e-6f));
+}
+
+// Both cosines positive. Per steradian; no cosine included.
+PPM_FN vec3 diffuse_eval(DiffuseLobe lobe, float cos_o, float cos_i) {
+  return diffuse_base(lobe, cos_o) * coat_transmittance(lobe, cos_i);
 }
 
 PPM_NAMESPACE_END

@@ -33,13 +33,21 @@ PPM_FN float ggx_lambda(float alpha, vec3 w) {
   return 0.5f * (sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
 }
 
-// Per steradian; no cosine included.
+// Per steradian; no cosine included. The half vector h is left at its length, which cancels but for
+// dot(wo, h) / |h| = |h| / 2; masking over the cosines is Heitz's
+// 1 / (2 (z_o sqrt(z_i^2 + a^2 sin^2_i) + z_i sqrt(z_o^2 + a^2 sin^2_o))), which has no division but
+// the last.
 PPM_FN vec3 ggx_eval(GgxLobe lobe, vec3 wo, vec3 wi) {
-  vec3 half_vector = normalize(wo + wi);
-  float masking = 1.0f / (1.0f + ggx_lambda(lobe.alpha, wo) + ggx_lambda(lobe.alpha, wi));
-  float weight = schlick_weight(dot(wo, half_vector));
+  vec3 h = wo + wi;
+  float h2 = dot(h, h);
+  float a2 = lobe.alpha * lobe.alpha;
+  float d = a2 * h.z * h.z + (h.x * h.x + h.y * h.y);
+  float slope_i = sqrt(wi.z * wi.z + a2 * (wi.x * wi.x + wi.y * wi.y));
+  float slope_o = sqrt(wo.z * wo.z + a2 * (wo.x * wo.x + wo.y * wo.y));
+  float weight = schlick_weight(0.5f * sqrt(h2));
   vec3 fresnel = lobe.f0 + (vec3(lobe.f90) - lobe.f0) * weight;
-  return fresnel * (ggx_distribution(lobe.alpha, half_vector) * masking / (4.0f * wo.z * wi.z));
+  float numerator = (0.5f * PPM_INVERSE_PI) * a2 * h2 * h2;
+  return fresnel * (numerator / (d * d * (wo.z * slope_i + wi.z * slope_o)));
 }
 
 // Density of ggx_sample, solid angle of wi.

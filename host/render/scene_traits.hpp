@@ -1,0 +1,13 @@
+// What searches and kernels are told of a scene beforehand.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace ppm::render {
+
+struct SceneTraits {
+  glm::vec3 bounds_min{-1.0f}, bounds_max{1.0f};  ///< of all triangles, working frame
+  bool rough_gloss = true;  ///< whether some material may have a rough glossy lobe
+};
+
+}  // namespace ppm::render

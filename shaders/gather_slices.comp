@@ -1,0 +1,67 @@
+// Searches that are too long to be shared (gather.comp), slice by slice: one invocation goes on with one search.
+//
+// A search that meets more than PPM_GATHER_SLICE rows and photons leaves a cursor in CONTINUE_OUT.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/invocation.glsl"
+
+#include "lib/receiver.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { GatherPush push; };
+layout(binding = PPM_BIND_CONTINUE_IN, scalar) readonly buffer ContinueIn { GatherCursor continue_in[]; };
+layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { GatherCursor continue_out[]; };
+
+// Which of up to 32 photons lie in the disc, a bit each. Finding is cheap and adding dear, and invocations in step
+// take as long as the one with most to do: apart, neither waits for the other.
+uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
+  uint found = 0u;
+  for (uint i = first; i < last; ++i) {
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
+    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
+  }
+  return found;
+}
+
+void leave_cursor(uint hit, uint row, uint offset) {
+  uint slot = atomicAdd(counters[PPM_COUNTER_CONTINUE], 1u);
+  if (slot < push.cursor_capacity) continue_out[slot] = GatherCursor(hit, row, offset);
+}
+
+void main() {
+  uint item = item_of_invocation(push.first);
+  if (item >= push.first + push.count) return;
+  GatherCursor cursor = continue_in[item];
+  Receiver receiver = fetch_receiver(cursor.hit);
+  float radius2 = fetch_radius2(cursor.hit);
+  CellBox box = cells_within(push.grid, receiver.position, radius2);
+  Sums sums = no_sums();
+  uint rows = row_count(box);
+  uint budget = PPM_GATHER_SLICE;
+  uint offset = cursor.offset;
+  for (uint row_index = cursor.row; row_index < rows; ++row_index) {
+    if (budget == 0u) {
+      leave_cursor(cursor.hit, row_index, offset);
+      break;
+    }
+    budget -= 1u;
+    CellRow row = cell_row(push.grid, box, row_index);
+    uint begin = row.begin + offset;
+    uint end = min(row.end, begin + budget);
+    for (uint first = begin; first < end; first += 32u) {
+      uint found = photons_within(row, receiver.position, radius2, first, min(first + 32u, end));
+      while (found != 0u) {
+        uint i = first + uint(findLSB(found));
+        found &= found - 1u;
+        add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, i), PPM_FETCH(sorted_flux, i)), true, sums);
+      }
+    }
+    budget -= end - begin;
+    if (end < row.end) {
+      leave_cursor(cursor.hit, row_index, end - row.begin);
+      break;
+    }
+    offset = 0u;
+  }
+  add_to_hit_point(cursor.hit, sums);
+}

@@ -1,0 +1,11 @@
+// What a scene may contain, as specialisation constants: lavapipe runs the code of every branch, with lanes masked
+// off, so that what no material of the scene needs is better left out. Before shared/bsdf.h.
+#ifndef PPM_LIB_SCENE_KINDS_GLSL
+#define PPM_LIB_SCENE_KINDS_GLSL
+
+#include "shared/bindings.h"
+
+layout(constant_id = PPM_SPEC_ROUGH_GLOSS) const bool kRoughGloss = true;
+#define PPM_ROUGH_GLOSS kRoughGloss
+
+#endif

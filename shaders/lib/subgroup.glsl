@@ -1,0 +1,30 @@
+// Sharing between the invocations of a subgroup, of any power of two's size, all of which must take part.
+//
+// Made of shuffles alone: on lavapipe a shuffle is one instruction, the built-in reductions and votes are loops.
+#ifndef PPM_LIB_SUBGROUP_GLSL
+#define PPM_LIB_SUBGROUP_GLSL
+
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+
+uint subgroup_min(uint x) {
+  for (uint mask = 8u / 2u; mask > 0u; mask /= 2u) x = min(x, subgroupShuffleXor(x, mask));
+  return x;
+}
+uint subgroup_max(uint x) {
+  for (uint mask = 8u / 2u; mask > 0u; mask /= 2u) x = max(x, subgroupShuffleXor(x, mask));
+  return x;
+}
+uvec3 subgroup_min(uvec3 v) { return uvec3(subgroup_min(v.x), subgroup_min(v.y), subgroup_min(v.z)); }
+uvec3 subgroup_max(uvec3 v) { return uvec3(subgroup_max(v.x), subgroup_max(v.y), subgroup_max(v.z)); }
+
+// Sum over this invocation and those before it.
+uint subgroup_inclusive_sum(uint x) {
+  for (uint offset = 1u; offset < 8u; offset *= 2u) {
+    uint before = subgroupShuffle(x, (gl_SubgroupInvocationID - offset) & (8u - 1u));
+    x += gl_SubgroupInvocationID >= offset ? before : 0u;
+  }
+  return x;
+}
+
+#endif
