@@ -268,7 +268,7 @@ float Builder::half_area(Child child) const {
 
 std::array<float, 3> Builder::forest_cost(Child child) const {
   if (!child.is_primitive()) return tree_.nodes[child.index()].forest_cost;
-  const float cost = half_area(child) * kTriangleCost;
+  const float cost = half_area(child) * kPairCost;
   return {cost, cost, cost};
 }
 
@@ -289,7 +289,8 @@ void Builder::finish(std::uint32_t index) {
   const auto four = std::min_element(fours.begin(), fours.end());
 
   const float inner = area * kNodeCost + *four;
-  const float leaf = area * static_cast<float>(node.count()) * kTriangleCost;
+  const float pairs = static_cast<float>((node.count() + 1) / 2);
+  const float leaf = area * pairs * kPairCost;
   node.is_leaf = node.count() <= kMaxLeaf && leaf <= inner;
   node.forest_cost[0] = node.is_leaf ? leaf : inner;
   node.is_two = two < node.forest_cost[0];
