@@ -166,8 +166,10 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
       "--tile-hits", options.settings.tile_hits, 1, kMany,
       fmt::format("hit points a tile holds at most (default {})", options.settings.tile_hits));
   declare.whole<std::uint64_t>("--photon-capacity", options.settings.photon_capacity, 1, kMany,
-                               fmt::format("photons stored at a time at most (default {})",
-                                           options.settings.photon_capacity));
+                               "photons stored at a time at most (default what suits the device)");
+  declare.whole<std::uint32_t>(
+      "--passes-in-flight", options.settings.passes_in_flight, 1, 16,
+      "photon passes that the device is given at a time (default what suits it)");
 }
 
 void declare_render(CLI::App& app, RenderOptions& options) {

@@ -34,9 +34,12 @@ bool advance_all(Integrator& integrator, const Settings& settings, const Budget&
   progress.preparing();
   if (!integrator.prepare(interrupted)) return false;
   progress.passing();
-  for (std::uint64_t pass = 1; pass <= budget.passes; ++pass) {
-    if (interrupted() || !integrator.advance(interrupted)) return false;
-    progress.passed(pass, pass * settings.photons_per_pass);
+  for (std::uint64_t passes = 0; passes < budget.passes;) {
+    const std::uint64_t made =
+        interrupted() ? 0 : integrator.advance_up_to(budget.passes - passes, interrupted);
+    if (made == 0) return false;
+    passes += made;
+    progress.passed(passes, passes * settings.photons_per_pass);
   }
   return true;
 }

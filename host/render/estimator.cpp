@@ -45,13 +45,18 @@ gpu::BindingTable Estimator::table_for(const HitTile& tile) const {
   return table;
 }
 
+shared::GatherPush Estimator::gather_push(const PhotonGrid& grid, std::uint32_t pass) const {
+  shared::GatherPush push{};
+  push.grid = grid.constants(pass);
+  push.cursor_capacity = static_cast<std::uint32_t>(cursor_capacity_);
+  return push;
+}
+
 Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& grid) {
   gpu::BindingTable table = table_for(tile);
   grid.bind(table);
   const gpu::Region region(device_, "gather");
-  shared::GatherPush push{};
-  push.grid = grid.constants();
-  push.cursor_capacity = static_cast<std::uint32_t>(cursor_capacity_);
+  shared::GatherPush push = gather_push(grid, 0);
   std::uint32_t searches = tile.searches;
   Rejected rejected;
   for (std::uint32_t round = 0; searches > 0; ++round) {
@@ -69,15 +74,39 @@ Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& gri
   return rejected;
 }
 
+void Estimator::record_gather(gpu::Recorder& recorder, const HitTile& tile, const PhotonGrid& grid,
+                              std::uint32_t pass, const DeviceBatch& batch) {
+  const gpu::Region region(device_, "gather");
+  gpu::BindingTable table = table_for(tile);
+  grid.bind(table);
+  table.set(PPM_BIND_CONTINUE_IN, cursors_[0]);
+  table.set(PPM_BIND_CONTINUE_OUT, cursors_[1]);
+  recorder.dispatch(gather_, table, gather_push(grid, pass), batch.if_going_on(tile.searches));
+}
+
 void Estimator::update(std::span<const HitTile> tiles, float alpha) {
-  const gpu::Region region(device_, "update");
   device_.run([&](gpu::Recorder& recorder) {
-    recorder.fill(histogram_buffer_, 0, histogram_buffer_.bytes());
-    for (const HitTile& tile : tiles) {
-      recorder.dispatch(update_, table_for(tile), shared::UpdatePush{0, 0, alpha}, tile.hits);
-    }
-    recorder.read(histogram_buffer_, radius_histogram_.data(), sizeof(radius_histogram_));
+    record_update(recorder, tiles, alpha, nullptr);
+    read_histogram(recorder);
   });
+}
+
+void Estimator::record_update(gpu::Recorder& recorder, std::span<const HitTile> tiles, float alpha,
+                              const DeviceBatch* batch) {
+  const gpu::Region region(device_, "update");
+  const shared::UpdatePush push{0, 0, alpha};
+  recorder.fill(histogram_buffer_, 0, histogram_buffer_.bytes());
+  for (const HitTile& tile : tiles) {
+    if (batch) {
+      recorder.dispatch(update_, table_for(tile), push, batch->if_going_on(tile.hits));
+    } else {
+      recorder.dispatch(update_, table_for(tile), push, tile.hits);
+    }
+  }
+}
+
+void Estimator::read_histogram(gpu::Recorder& recorder) {
+  recorder.read(histogram_buffer_, radius_histogram_.data(), sizeof(radius_histogram_));
 }
 
 void Estimator::clear_sums(std::span<const HitTile> tiles) {
@@ -136,9 +165,13 @@ std::uint32_t Estimator::pilot_decide(const HitTile& tile, const PilotRound& rou
   return counters_[PPM_COUNTER_UNDECIDED];
 }
 
-void Estimator::prepare_searches(std::span<HitTile> tiles) {
+void Estimator::measure_radii(std::span<const HitTile> tiles) {
   // An update without photons changes no hit point and counts all radii.
   update(tiles, 0.5f);
+}
+
+void Estimator::prepare_searches(std::span<HitTile> tiles) {
+  measure_radii(tiles);
   for (HitTile& tile : tiles) order_.sort(tile, kOrderCell * cell_size());
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "counters.hpp"
+#include "device_batch.hpp"
 #include "hit_tile.hpp"
 #include "photon_grid.hpp"
 #include "search_order.hpp"
@@ -27,6 +28,18 @@ class Estimator {
     std::uint64_t overflow = 0, clamped = 0;
   };
   Rejected gather(const HitTile& tile, const PhotonGrid& grid);
+
+  /// The parts of a batch (PassBatch). Searches among the photons of one pass of the grid, as long
+  /// as the batch may go on; searches that are left, rejected terms and clamped factors are in the
+  /// counters.
+  void record_gather(gpu::Recorder& recorder, const HitTile& tile, const PhotonGrid& grid,
+                     std::uint32_t pass, const DeviceBatch& batch);
+  void clear_counters(gpu::Recorder& recorder) const { counters_.clear(recorder); }
+  void bind_counters(gpu::BindingTable& table) const { counters_.bind(table); }
+  /// As `update`; with a batch, as long as it may go on. The histogram is read apart.
+  void record_update(gpu::Recorder& recorder, std::span<const HitTile> tiles, float alpha,
+                     const DeviceBatch* batch);
+  void read_histogram(gpu::Recorder& recorder);
 
   /// Eqs. 7, 9 and 12 for every hit point, from its sums, which are zero afterwards.
   void update(std::span<const HitTile> tiles, float alpha);
@@ -62,9 +75,12 @@ class Estimator {
   /// Once radii are known and before the first `gather`: reads their histogram, and puts the tiles'
   /// hit points in search order.
   void prepare_searches(std::span<HitTile> tiles);
+  /// Reads the histogram of radii without changing anything else.
+  void measure_radii(std::span<const HitTile> tiles);
 
  private:
   gpu::BindingTable table_for(const HitTile& tile) const;
+  shared::GatherPush gather_push(const PhotonGrid& grid, std::uint32_t pass) const;
   shared::PilotPush pilot_push(const PilotRound& round) const;
 
   gpu::Device& device_;

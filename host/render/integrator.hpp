@@ -34,7 +34,9 @@ struct Settings {
   std::uint64_t tile_hits =
       1u << 20;  ///< hit points a tile holds at most; never changes the picture
   std::uint64_t photon_capacity =
-      1u << 20;  ///< photons stored at a time at most; never changes the picture
+      0;  ///< photons stored at a time at most; 0: what suits the device
+  std::uint32_t passes_in_flight = 0;  ///< photon passes that the device is given at a time; 0:
+                                       ///< what suits it. Neither ever changes the picture
 };
 
 /// A linear RGB picture, row-major from the top, radiance in W/(m^2 sr).
@@ -74,6 +76,13 @@ class Integrator {
   /// One pass. When `interrupted` says so the pass in hand is discarded without trace and false
   /// returned.
   virtual bool advance(const std::function<bool()>& interrupted) = 0;
+
+  /// As many of `passes` (1 or more) as the method likes to make at a time. Returns how many were
+  /// made; 0 when `interrupted` said so, which may also have ended it early.
+  virtual std::uint64_t advance_up_to(std::uint64_t passes,
+                                      const std::function<bool()>& interrupted) {
+    return passes > 0 && advance(interrupted) ? 1 : 0;
+  }
 
   /// The picture after the passes so far.
   virtual Picture resolve() = 0;

@@ -8,22 +8,15 @@
 #include "region.hpp"
 
 namespace ppm::render {
-namespace {
-
-// One table of any kind for all photons, and as much more as the device has room for.
-std::uint64_t max_entries_on(const gpu::Device& device, std::uint64_t photons) {
-  return std::max(max_entries(hashed_entries_for(photons)), device.profile().grid_entries);
-}
-
-}  // namespace
 
 PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
-                       std::uint64_t photon_capacity, std::uint32_t hashed_entries)
+                       std::uint64_t photon_capacity, std::uint32_t hashed_entries,
+                       std::uint64_t table_room)
     : device_(device),
       bounds_min_(bounds_min),
       bounds_max_(bounds_max),
       table_entries_(hashed_entries != 0 ? hashed_entries : hashed_entries_for(photon_capacity)),
-      max_entries_(max_entries_on(device, photon_capacity)),
+      max_entries_(std::max(max_entries(hashed_entries_for(photon_capacity)), table_room)),
       count_(device, shaders::grid_count),
       scatter_(device, shaders::grid_scatter),
       scan_(device, max_entries_),

@@ -15,8 +15,10 @@ class PhotonGrid {
  public:
   /// Over the box [bounds_min, bounds_max] (working frame) for up to `photon_capacity` photons.
   /// hashed_entries: size of the table where rows are hashed, a power of two; 0 suits the photons.
+  /// table_room: entries of all passes' tables, if more than one pass needs.
   PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
-             std::uint64_t photon_capacity, std::uint32_t hashed_entries = 0);
+             std::uint64_t photon_capacity, std::uint32_t hashed_entries = 0,
+             std::uint64_t table_room = 0);
 
   /// Sorts `photons` photons (bound in `photon_table`) into cells of about `cell` working units.
   /// The size of cells decides how fast searches are, never what they find.

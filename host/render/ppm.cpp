@@ -13,20 +13,12 @@
 namespace ppm::render {
 namespace {
 
-// Paths traced at a time: their queues take 25 MB, and the shallow rounds fill any device.
-constexpr std::uint64_t kPathCapacity = 1u << 18;
 // The paper's other choice of the first radius: this many footprints of the pixel.
 constexpr float kFootprints = 3.0f;
 // The pilot never looks further than this share of the scene's bounding radius ...
 constexpr float kLargestRadius = 0.02f;
 // ... and halves its radius at most this often.
 constexpr std::uint32_t kPilotRounds = 12;
-
-std::uint64_t photon_capacity(const Settings& settings, const gpu::Device& device) {
-  // Some three deposits a path in a closed room; eight spare most scenes a second try.
-  const std::uint64_t wanted = std::max<std::uint64_t>(8 * settings.photons_per_pass, 1u << 16);
-  return std::min({settings.photon_capacity, wanted, device.max_storage_bytes() / 16});
-}
 
 gpu::BindingTable scene_table(const SceneBuffers& buffers) {
   gpu::BindingTable table;
@@ -45,11 +37,15 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       buffers_(scene, settings, device, threads),
       table_(scene_table(buffers_)),
       pipelines_begin_(clock_seconds()),
-      tracer_(device, table_, photon_capacity(settings, device), kPathCapacity),
-      grid_(device, scene.bounds_min, scene.bounds_max, photon_capacity(settings, device)),
+      capacities_(pass_capacities(settings, device)),
+      tracer_(device, table_, capacities_.photons, capacities_.paths),
+      grid_(device, scene.bounds_min, scene.bounds_max, capacities_.photons, 0,
+            capacities_.grid_entries),
       estimator_(device, table_, buffers_.traits(), tile_capacity(settings, device)),
-      chunk_paths_(static_cast<std::uint32_t>(
-          std::min(settings.photons_per_pass, tracer_.path_capacity()))) {
+      batch_(device, tracer_, grid_, estimator_),
+      chunk_paths_(
+          static_cast<std::uint32_t>(std::min(settings.photons_per_pass, tracer_.path_capacity()))),
+      batch_limit_(capacities_.passes) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
   statistics_.triangles = scene.triangles.size();
@@ -104,7 +100,6 @@ bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
 
 bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
   const gpu::Region region(device_, "pilot");
-  const auto seconds_before = statistics_.seconds;
   const double start = clock_seconds();
   const bool automatic = settings_.radius_mode == RadiusMode::automatic;
   const float fixed = settings_.radius_mode == RadiusMode::fixed
@@ -115,8 +110,6 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
   if (automatic && !run_pilot(interrupted)) return false;
   estimator_.prepare_searches(tiles_);
   record_initial_radii();
-  // The pilot's own tracing and sorting counts as pilot alone.
-  statistics_.seconds = seconds_before;
   statistics_.seconds["pilot"] = clock_seconds() - start;
   return true;
 }
@@ -149,72 +142,6 @@ bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
   return true;
 }
 
-template <class Use>
-std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass,
-                                                           float cell,
-                                                           const std::function<bool()>& interrupted,
-                                                           const Use& use) {
-  const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
-  std::uint32_t chunks = 0;
-  for (std::uint32_t first = 0; first < paths;) {
-    const std::uint32_t chunk = std::min(chunk_paths_, paths - first);
-    PhotonTracer::Result result;
-    {
-      const Stopwatch stopwatch(statistics_.seconds["photons"]);
-      result = tracer_.trace(stream, pass, first, chunk, interrupted);
-    }
-    if (result == PhotonTracer::Result::interrupted) return std::nullopt;
-    if (result == PhotonTracer::Result::overflow) {
-      if (chunk == 1) {
-        throw Failure("", "--photon-capacity " + std::to_string(settings_.photon_capacity),
-                      "the photons of one path do not fit", "raise --photon-capacity");
-      }
-      chunk_paths_ = (chunk + 1) / 2;
-      continue;
-    }
-    {
-      const Stopwatch stopwatch(statistics_.seconds["grid"]);
-      grid_.build(device_, photons_, tracer_.photon_count(), cell);
-    }
-    if (!use()) return std::nullopt;
-    first += chunk;
-    ++chunks;
-  }
-  return chunks;
-}
-
-bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
-  const double start = clock_seconds();
-  Tally tally;
-  const float cell = estimator_.cell_size();
-  if (buffers_.light_count() > 0 && cell > 0.0f) {
-    const auto gather = [&] {
-      const Stopwatch stopwatch(statistics_.seconds["update"]);
-      for (const HitTile& tile : tiles_) {
-        if (interrupted()) return false;
-        const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
-        tally.overflow += rejected.overflow;
-        tally.clamped += rejected.clamped;
-      }
-      tally.photons_stored += tracer_.photon_count();
-      tally.add(tracer_.counters());
-      return true;
-    };
-    const auto pass = static_cast<std::uint32_t>(statistics_.passes);
-    if (!for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, gather)) {
-      estimator_.clear_sums(tiles_);
-      return false;
-    }
-    const Stopwatch stopwatch(statistics_.seconds["update"]);
-    estimator_.update(tiles_, static_cast<float>(settings_.alpha));
-  }
-  record(tally);
-  statistics_.passes += 1;
-  statistics_.photons_emitted += settings_.photons_per_pass;
-  statistics_.pass_seconds.push_back(clock_seconds() - start);
-  return true;
-}
-
 Picture PpmIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
   Picture picture{settings_.width, settings_.height,
@@ -235,22 +162,6 @@ Picture PpmIntegrator::resolve() {
     }
   }
   return picture;
-}
-
-void PpmIntegrator::Tally::add(const Counters& counters) {
-  paths_cut += counters[PPM_COUNTER_PATHS_CUT];
-  non_finite += counters[PPM_COUNTER_NON_FINITE];
-  clamped += counters[PPM_COUNTER_CLAMPED];
-  photon_rays += counters[PPM_COUNTER_PHOTON_RAYS];
-}
-
-void PpmIntegrator::record(const Tally& tally) {
-  statistics_.photons_stored += tally.photons_stored;
-  statistics_.photon_rays += tally.photon_rays;
-  statistics_.paths_cut += tally.paths_cut;
-  statistics_.rejected["non_finite"] += tally.non_finite;
-  statistics_.rejected["clamped"] += tally.clamped;
-  statistics_.rejected["overflow"] += tally.overflow;
 }
 
 void PpmIntegrator::record_initial_radii() {

@@ -7,6 +7,8 @@
 
 #include "estimator.hpp"
 #include "integrator.hpp"
+#include "pass_batch.hpp"
+#include "pass_capacities.hpp"
 #include "photon_grid.hpp"
 #include "photon_tracer.hpp"
 #include "scene_buffers.hpp"
@@ -20,6 +22,8 @@ class PpmIntegrator final : public Integrator {
 
   bool prepare(const std::function<bool()>& interrupted) override;
   bool advance(const std::function<bool()>& interrupted) override;
+  std::uint64_t advance_up_to(std::uint64_t passes,
+                              const std::function<bool()>& interrupted) override;
   Picture resolve() override;
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
@@ -32,10 +36,19 @@ class PpmIntegrator final : public Integrator {
   /// Traces all paths of a pass in chunks that fit, and calls `use` with the photons of each in the
   /// grid, in cells of `cell` working units. Returns how many chunks it took; nothing when
   /// interrupted, by itself or by `use`.
-  template <class Use>
   std::optional<std::uint32_t> for_each_chunk(std::uint32_t stream, std::uint32_t pass, float cell,
                                               const std::function<bool()>& interrupted,
-                                              const Use& use);
+                                              const std::function<bool()>& use);
+  /// Passes to be recorded at a time; 0: the next one is made in steps.
+  std::uint32_t batch_size(std::uint64_t passes, float cell) const;
+  /// Passes made, at least one; nothing when interrupted.
+  std::optional<std::uint32_t> advance_lit(std::uint64_t passes, float cell,
+                                           const std::function<bool()>& interrupted);
+  /// Passes made, 0 when it must be tried otherwise; nothing when interrupted before the first.
+  std::optional<std::uint32_t> advance_batch(std::uint32_t passes, float cell,
+                                             const std::function<bool()>& interrupted);
+  /// One pass under the host's eyes, in chunks that fit and with searches of any length.
+  bool advance_in_steps(float cell, const std::function<bool()>& interrupted);
   void record_initial_radii();
 
   /// What a pass or tile adds to the statistics once it is complete.
@@ -45,6 +58,7 @@ class PpmIntegrator final : public Integrator {
     void add(const Counters& counters);
   };
   void record(const Tally& tally);
+  void record_passes(std::uint32_t passes, double seconds);
   std::uint64_t fingerprint() const;
 
   Settings settings_;
@@ -54,12 +68,16 @@ class PpmIntegrator final : public Integrator {
   SceneBuffers buffers_;
   gpu::BindingTable table_;
   double pipelines_begin_;  // reading of the clock, between the members that are timed
+  PassCapacities capacities_;
   PhotonTracer tracer_;
   gpu::BindingTable photons_;  // the tracer's photons, which the grid sorts
   PhotonGrid grid_;
   Estimator estimator_;
+  PassBatch batch_;
   std::vector<HitTile> tiles_;
-  std::uint32_t chunk_paths_;  // paths traced at a time, at most
+  std::uint32_t chunk_paths_;          // paths traced at a time, at most
+  std::uint32_t batch_limit_;          // passes recorded at a time, at most
+  std::uint32_t passes_in_steps_ = 0;  // to come, after searches that were too long for a batch
   Statistics statistics_;
 };
 

@@ -254,6 +254,34 @@ TEST_F(Driver, ProgressIsPlainLinesAtPowersOfTwoAndTheEnd) {
   EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
+/// Makes up to three passes at a time.
+class Triple : public Counter {
+ public:
+  using Counter::Counter;
+  std::uint64_t advance_up_to(std::uint64_t passes,
+                              const std::function<bool()>& interrupted) override {
+    asked.push_back(passes);
+    std::uint64_t made = 0;
+    while (made < std::min<std::uint64_t>(passes, 3) && advance(interrupted)) ++made;
+    return made;
+  }
+  std::vector<std::uint64_t> asked;
+};
+
+TEST_F(Driver, SeveralPassesAtATimeAreAsManyAsAskedFor) {
+  Triple triple(settings_);
+  EXPECT_EQ(run(triple, 8), Outcome::complete);
+  EXPECT_EQ(triple.counted.passes, 8u);
+  EXPECT_EQ(triple.asked, (std::vector<std::uint64_t>{8, 5, 2}));
+}
+
+TEST_F(Driver, PassesBeforeAnInterruptionAmongSeveralAreKept) {
+  Triple triple(settings_);
+  triple.interrupt_in_pass = 6;
+  EXPECT_EQ(run(triple, 8), Outcome::interrupted);
+  EXPECT_EQ(triple.counted.passes, 5u);
+}
+
 TEST_F(Driver, QuietIsQuiet) {
   Counter counter(settings_);
   testing::internal::CaptureStderr();

@@ -130,6 +130,8 @@ TEST(Options, EveryOptionArrives) {
                                           "100",
                                           "--photon-capacity",
                                           "200",
+                                          "--passes-in-flight",
+                                          "3",
                                           "-o",
                                           "second.PNG",
                                           "--output",
@@ -162,6 +164,7 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(settings.max_depth, 255u);
   EXPECT_EQ(settings.tile_hits, 100u);
   EXPECT_EQ(settings.photon_capacity, 200u);
+  EXPECT_EQ(settings.passes_in_flight, 3u);
 }
 
 TEST(Options, WordsAndQuiet) {
@@ -206,6 +209,7 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("--stats", {"", "s.glb", "o.exr", "./o.exr"});
   expect_value_refused("--tile-hits", {"0", "-1"});
   expect_value_refused("--photon-capacity", {"0", "-1"});
+  expect_value_refused("--passes-in-flight", {"0", "17", "x"});
 }
 
 TEST(Options, BrokenUsageIsRefused) {

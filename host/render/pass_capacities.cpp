@@ -1,0 +1,45 @@
+#include "pass_capacities.hpp"
+
+#include <algorithm>
+
+#include "shared/layout.h"
+
+namespace ppm::render {
+namespace {
+
+// Some three deposits a path in a closed room. Eight spare most scenes a second try; in a batch
+// passes make up for each other.
+constexpr std::uint64_t kPhotonsAPath = 8;
+constexpr std::uint64_t kPhotonsABatchPath = 4;
+constexpr std::uint64_t kFewestPhotons = 1u << 16;
+// The largest that is ever needed: the kernels tell passes apart by single precision.
+constexpr std::uint64_t kMostPaths = 1u << 23;
+constexpr std::uint64_t kGridEntriesAPass = 1u << 20;
+
+}  // namespace
+
+PassCapacities pass_capacities(const Settings& settings, const gpu::Device& device) {
+  const gpu::DeviceProfile& profile = device.profile();
+  const std::uint64_t emitted = settings.photons_per_pass;
+  // Who asks for passes in flight gets room for them.
+  const std::uint64_t asked = std::min(settings.passes_in_flight, std::uint32_t{PPM_BATCH_LIMIT});
+  PassCapacities capacities;
+  capacities.passes = static_cast<std::uint32_t>(
+      asked > 0 ? asked : std::min(profile.passes_in_flight, std::uint32_t{PPM_BATCH_LIMIT}));
+  capacities.paths = std::max(profile.paths, std::min(asked * emitted, kMostPaths));
+  capacities.photons =
+      std::min(settings.photon_capacity > 0
+                   ? settings.photon_capacity
+                   : std::max(profile.photons, asked * kPhotonsABatchPath * emitted),
+               std::max({kPhotonsAPath * emitted, capacities.passes * kPhotonsABatchPath * emitted,
+                         kFewestPhotons}));
+  capacities.grid_entries = std::max(profile.grid_entries, asked * kGridEntriesAPass);
+
+  const std::uint64_t bytes = device.max_storage_bytes();
+  capacities.paths = std::min(capacities.paths, bytes / sizeof(shared::PhotonPath));
+  capacities.photons = std::min(capacities.photons, bytes / 16);
+  capacities.grid_entries = std::min(capacities.grid_entries, bytes / 4 - 1);
+  return capacities;
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,162 @@
+// Photon passes: in batches, or under the host's eyes where something does not fit.
+#include <algorithm>
+
+#include "failure.hpp"
+#include "ppm.hpp"
+#include "shared/random.h"
+#include "stopwatch.hpp"
+
+namespace ppm::render {
+namespace {
+
+// A pass that has too long searches for a batch is followed by more of them, until radii shrink.
+constexpr std::uint32_t kPassesInSteps = 8;
+
+}  // namespace
+
+std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass,
+                                                           float cell,
+                                                           const std::function<bool()>& interrupted,
+                                                           const std::function<bool()>& use) {
+  const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
+  std::uint32_t chunks = 0;
+  for (std::uint32_t first = 0; first < paths;) {
+    const std::uint32_t chunk = std::min(chunk_paths_, paths - first);
+    const PhotonTracer::Result result = tracer_.trace(stream, pass, first, chunk, interrupted);
+    if (result == PhotonTracer::Result::interrupted) return std::nullopt;
+    if (result == PhotonTracer::Result::overflow) {
+      if (chunk == 1) {
+        throw Failure("", "--photon-capacity " + std::to_string(capacities_.photons),
+                      "the photons of one path do not fit", "raise --photon-capacity");
+      }
+      chunk_paths_ = (chunk + 1) / 2;
+      continue;
+    }
+    grid_.build(device_, photons_, tracer_.photon_count(), cell);
+    if (!use()) return std::nullopt;
+    first += chunk;
+    ++chunks;
+  }
+  return chunks;
+}
+
+bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
+  return advance_up_to(1, interrupted) == 1;
+}
+
+std::uint64_t PpmIntegrator::advance_up_to(std::uint64_t passes,
+                                           const std::function<bool()>& interrupted) {
+  const double start = clock_seconds();
+  const auto regions_before = device_.region_times();
+  const float cell = estimator_.cell_size();
+  std::uint32_t made = 0;
+  if (buffers_.light_count() == 0 || cell <= 0.0f) {
+    made = 1;  // no photons, or nobody to see them
+  } else {
+    const std::optional<std::uint32_t> done = advance_lit(passes, cell, interrupted);
+    if (!done) return 0;
+    made = *done;
+  }
+  const auto add_seconds = [&](const char* part, const char* region) {
+    const auto now = device_.region_times().find(region);
+    const auto before = regions_before.find(region);
+    statistics_.seconds[part] += (now == device_.region_times().end() ? 0.0 : now->second.seconds) -
+                                 (before == regions_before.end() ? 0.0 : before->second.seconds);
+  };
+  for (const char* region : {"photons", "grid", "update"}) add_seconds(region, region);
+  add_seconds("update", "gather");
+  record_passes(made, clock_seconds() - start);
+  return made;
+}
+
+std::optional<std::uint32_t> PpmIntegrator::advance_lit(std::uint64_t passes, float cell,
+                                                        const std::function<bool()>& interrupted) {
+  while (const std::uint32_t size = batch_size(passes, cell)) {
+    const std::optional<std::uint32_t> made = advance_batch(size, cell, interrupted);
+    if (!made || *made > 0) return made;
+  }
+  if (!advance_in_steps(cell, interrupted)) return std::nullopt;
+  return 1;
+}
+
+std::uint32_t PpmIntegrator::batch_size(std::uint64_t passes, float cell) const {
+  if (passes_in_steps_ > 0 || chunk_paths_ < settings_.photons_per_pass) return 0;
+  return batch_.fitting(std::min<std::uint64_t>(passes, batch_limit_), settings_.photons_per_pass,
+                        cell);
+}
+
+std::optional<std::uint32_t> PpmIntegrator::advance_batch(
+    std::uint32_t passes, float cell, const std::function<bool()>& interrupted) {
+  const PassBatch::Result result =
+      batch_.make(tiles_,
+                  {static_cast<std::uint32_t>(statistics_.passes), passes,
+                   static_cast<std::uint32_t>(settings_.photons_per_pass),
+                   static_cast<float>(settings_.alpha), cell},
+                  interrupted);
+  if (result.end == PassBatch::End::long_searches) passes_in_steps_ = kPassesInSteps;
+  if (result.end == PassBatch::End::photons_overflow) {
+    if (passes > 1) {
+      batch_limit_ = (passes + 1) / 2;
+    } else {
+      chunk_paths_ = (chunk_paths_ + 1) / 2;
+    }
+  }
+  if (result.passes == 0) {
+    return result.end == PassBatch::End::interrupted ? std::nullopt : std::optional(0u);
+  }
+  Tally tally;
+  tally.photons_stored = result.photons_stored;
+  tally.overflow = result.overflow;
+  tally.clamped = result.clamped;
+  tally.add(tracer_.counters());
+  record(tally);
+  return result.passes;
+}
+
+bool PpmIntegrator::advance_in_steps(float cell, const std::function<bool()>& interrupted) {
+  Tally tally;
+  const auto gather = [&] {
+    for (const HitTile& tile : tiles_) {
+      if (interrupted()) return false;
+      const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
+      tally.overflow += rejected.overflow;
+      tally.clamped += rejected.clamped;
+    }
+    tally.photons_stored += tracer_.photon_count();
+    tally.add(tracer_.counters());
+    return true;
+  };
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  if (!for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, gather)) {
+    estimator_.clear_sums(tiles_);
+    return false;
+  }
+  estimator_.update(tiles_, static_cast<float>(settings_.alpha));
+  record(tally);
+  if (passes_in_steps_ > 0) --passes_in_steps_;
+  return true;
+}
+
+void PpmIntegrator::Tally::add(const Counters& counters) {
+  paths_cut += counters[PPM_COUNTER_PATHS_CUT];
+  non_finite += counters[PPM_COUNTER_NON_FINITE];
+  clamped += counters[PPM_COUNTER_CLAMPED];
+  photon_rays += counters[PPM_COUNTER_PHOTON_RAYS];
+}
+
+void PpmIntegrator::record(const Tally& tally) {
+  statistics_.photons_stored += tally.photons_stored;
+  statistics_.photon_rays += tally.photon_rays;
+  statistics_.paths_cut += tally.paths_cut;
+  statistics_.rejected["non_finite"] += tally.non_finite;
+  statistics_.rejected["clamped"] += tally.clamped;
+  statistics_.rejected["overflow"] += tally.overflow;
+}
+
+void PpmIntegrator::record_passes(std::uint32_t passes, double seconds) {
+  statistics_.passes += passes;
+  statistics_.photons_emitted += passes * settings_.photons_per_pass;
+  statistics_.pass_seconds.insert(statistics_.pass_seconds.end(), passes, seconds / passes);
+}
+
+}  // namespace ppm::render
