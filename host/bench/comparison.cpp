@@ -13,8 +13,7 @@ namespace ppm::bench {
 namespace {
 
 /// What differs from run to run without making them different benchmarks.
-const std::set<std::string> kMomentary = {"date", "load_avg", "executable", "mhz_per_cpu",
-                                          "scenes"};
+const std::set<std::string> kMomentary = {"date", "executable"};
 
 double ratio_of(double before, double after) {
   if (before == after) return 1.0;
@@ -44,22 +43,13 @@ const char* text_of(Verdict verdict) {
   return "";
 }
 
+/// Of what both tell.
 std::vector<std::string> different_context(const Context& before, const Context& after) {
   std::vector<std::string> lines;
-  const auto value_in = [](const Context& context, const std::string& key) -> std::string {
-    const auto entry = context.find(key);
-    return entry == context.end() ? "not told" : entry->second;
-  };
-  std::set<std::string> keys;
-  for (const Context* context : {&before, &after}) {
-    for (const auto& [key, value] : *context) keys.insert(key);
-  }
-  for (const std::string& key : keys) {
-    if (kMomentary.contains(key)) continue;
-    const std::string old_value = value_in(before, key), new_value = value_in(after, key);
-    if (old_value != new_value) {
-      lines.push_back(fmt::format("{}: was {}, is {}", key, old_value, new_value));
-    }
+  for (const auto& [key, value] : before) {
+    const auto now = after.find(key);
+    if (now == after.end() || now->second == value || kMomentary.contains(key)) continue;
+    lines.push_back(fmt::format("{}: was {}, is {}", key, value, now->second));
   }
   return lines;
 }

@@ -8,7 +8,7 @@
 
 namespace ppm::bench {
 
-/// Parts below this share of their whole are shown, but what they take is too little to judge by.
+/// Rows below this share of their whole are shown, but what they take is too little to judge by.
 inline constexpr double kLeastShare = 0.02;
 
 enum class Verdict { alike, better, worse, too_small };

@@ -63,6 +63,7 @@ class Run {
   bool measure_passes(const std::string& stage);
   bool age();
   void check_validation() const;
+  double start_seconds() const { return start_seconds_; }
 
  private:
   void add_start(double cpu, const std::map<std::string, double>& parts);
@@ -79,6 +80,7 @@ class Run {
   Log& log_;
   RowSet& rows_;
   render::Settings settings_;
+  double start_seconds_ = 0.0;
   // In the order in which they are made; each needs those before it.
   std::unique_ptr<scene::Scene> scene_;
   std::unique_ptr<gpu::Device> device_;
@@ -132,7 +134,7 @@ bool Run::start() {
 }
 
 void Run::add_start(double cpu, const std::map<std::string, double>& parts) {
-  const double total = sum_of(parts);
+  const double total = start_seconds_ = sum_of(parts);
   Row& row = rows_.add(subject_.name + "/start", total, cpu);
   const render::Statistics& statistics = integrator_->statistics();
   const auto count = [&](const char* name, auto value) {
@@ -246,8 +248,8 @@ void Run::check_validation() const {
 }
 
 /// A rendering so small that its dispatches take no time to speak of but for what drivers do at the
-/// first one of each kernel.
-bool measure_compilation(const Plan& plan, const Poll& interrupted, RowSet& rows) {
+/// first one of each kernel. The row, or null where interrupted.
+Row* measure_compilation(const Plan& plan, const Poll& interrupted, RowSet& rows) {
   const scene::Scene scene = make_room(5000);
   render::Settings settings;
   settings.width = 16;
@@ -258,9 +260,9 @@ bool measure_compilation(const Plan& plan, const Poll& interrupted, RowSet& rows
   Log log(Verbosity::quiet);
   gpu::Device device(plan.device);
   const auto integrator = render::make_integrator(settings, scene, device, log, plan.threads);
-  if (!integrator->prepare(interrupted)) return false;
+  if (!integrator->prepare(interrupted)) return nullptr;
   for (int pass = 0; pass < 3; ++pass) {
-    if (!integrator->advance(interrupted)) return false;
+    if (!integrator->advance(interrupted)) return nullptr;
   }
   for (int picture = 0; picture < 2; ++picture) integrator->resolve();
   std::map<std::string, double> more;
@@ -271,13 +273,9 @@ bool measure_compilation(const Plan& plan, const Poll& interrupted, RowSet& rows
                                              : 0.0;
     more[kernel] = std::max(0.0, time.first_seconds - later);
   }
-  const double total = sum_of(more);
-  rows.add("compile", total);
-  for (const auto& [kernel, seconds] : more) {
-    Row& row = rows.add("compile/kernel:" + kernel, seconds);
-    rows.count(row, "share", per(seconds, total));
-  }
-  return true;
+  Row& row = rows.add("compile", sum_of(more));
+  for (const auto& [kernel, seconds] : more) rows.count(row, kernel + "_seconds", seconds);
+  return &row;
 }
 
 }  // namespace
@@ -297,12 +295,17 @@ std::optional<std::vector<Row>> measure(const std::vector<Case>& cases, const Pl
   RowSet compilation;
   std::vector<RowSet> sets(cases.size());
   for (unsigned repetition = 0; repetition < plan.repetitions; ++repetition) {
-    if (interrupted() || !measure_compilation(plan, interrupted, compilation)) return std::nullopt;
+    if (interrupted()) return std::nullopt;
+    Row* const compile = measure_compilation(plan, interrupted, compilation);
+    if (!compile) return std::nullopt;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Case& subject = cases[i];
       tell(fmt::format("{}, repetition {} of {}", subject.name, repetition + 1, plan.repetitions));
       Run run(subject, plan, interrupted, log, sets[i]);
-      if (!run.start() || !run.warm_up() || !run.measure_passes("")) return std::nullopt;
+      if (!run.start()) return std::nullopt;
+      if (i == 0)
+        compilation.count(*compile, "share", per(compile->seconds.back(), run.start_seconds()));
+      if (!run.warm_up() || !run.measure_passes("")) return std::nullopt;
       if (plan.aged && repetition + 1 == plan.repetitions) {
         tell(fmt::format("{}, once radii have halved", subject.name));
         if (!run.age()) return std::nullopt;

@@ -39,7 +39,8 @@ std::uint64_t passes_until_half(double alpha);
 
 /// Measures all cases in turn, `plan.repetitions` times over, so that a machine whose speed wanders
 /// treats them alike. Every repetition starts anew: device, scene, tree, eye pass, pilot. Rows:
-///   compile, compile/kernel:K    what the first dispatch of K took more than later ones
+///   compile                      what the first dispatches of all kernels took more than later
+///                                ones, each alone as counter K_seconds; share: of the first start
 ///   CASE/start, CASE/start:PART  from nothing to the picture after one pass, wall time
 ///   CASE/start/kernel:K          device time before the first pass
 ///   CASE/pass, CASE/kernel:K     a pass, and the device time of K in it

@@ -17,7 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Statistic = std::function<double(const std::vector<double>&)>;
 
-constexpr double kMilliseconds = 1e3;
+constexpr double kUnits = 1e6;  // a second
+constexpr const char* kUnit = "us";
 constexpr const char* kProgram = "ppm-vk";
 
 /// What an entry has that is not a counter.
@@ -71,10 +72,10 @@ Json iteration_json(const Row& row, std::size_t index, std::size_t repetition) {
   json["repetition_index"] = repetition;
   json["threads"] = 1;
   json["iterations"] = row.iterations;
-  json["real_time"] = kMilliseconds * row.seconds[repetition];
+  json["real_time"] = kUnits * row.seconds[repetition];
   const std::vector<double>& cpu = row.cpu_seconds.empty() ? row.seconds : row.cpu_seconds;
-  json["cpu_time"] = kMilliseconds * cpu[repetition];
-  json["time_unit"] = "ms";
+  json["cpu_time"] = kUnits * cpu[repetition];
+  json["time_unit"] = kUnit;
   for (const auto& [name, values] : row.counters) json[name] = values[repetition];
   return json;
 }
@@ -86,10 +87,10 @@ Json aggregate_json(const Row& row, std::size_t index, const std::string& name, 
   json["aggregate_name"] = name;
   json["aggregate_unit"] = is_ratio ? "percentage" : "time";
   json["iterations"] = row.seconds.size();
-  const double unit = is_ratio ? 1.0 : kMilliseconds;
+  const double unit = is_ratio ? 1.0 : kUnits;
   json["real_time"] = unit * statistic(row.seconds);
   json["cpu_time"] = unit * statistic(row.cpu_seconds.empty() ? row.seconds : row.cpu_seconds);
-  json["time_unit"] = "ms";
+  json["time_unit"] = kUnit;
   for (const auto& [counter, values] : row.counters) json[counter] = statistic(values);
   return json;
 }
@@ -134,7 +135,7 @@ std::string text_of(const Json& entry, const char* key, const std::string& file)
 
 void add_iteration(Results& results, const Json& entry, const std::string& file) {
   const std::string name = text_of(entry, "run_name", file);
-  if (text_of(entry, "time_unit", file) != "ms") refuse(file, "its times are not in ms");
+  if (text_of(entry, "time_unit", file) != kUnit) refuse(file, "its times are not in microseconds");
   // Repetitions of a row stand together.
   if (results.rows.empty() || results.rows.back().name != name) {
     if (results.find(name)) refuse(file, "\"" + name + "\" is there twice");
@@ -142,8 +143,8 @@ void add_iteration(Results& results, const Json& entry, const std::string& file)
   }
   Row& row = results.rows.back();
   row.iterations = static_cast<std::uint64_t>(number_of(entry, "iterations", file));
-  row.seconds.push_back(number_of(entry, "real_time", file) / kMilliseconds);
-  row.cpu_seconds.push_back(number_of(entry, "cpu_time", file) / kMilliseconds);
+  row.seconds.push_back(number_of(entry, "real_time", file) / kUnits);
+  row.cpu_seconds.push_back(number_of(entry, "cpu_time", file) / kUnits);
   for (const auto& [key, value] : entry.items()) {
     if (!kOwnKeys.contains(key) && value.is_number()) {
       row.counters[key].push_back(value.get<double>());

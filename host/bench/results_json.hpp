@@ -11,7 +11,7 @@ namespace ppm::bench {
 
 /// "context" tells of the machine as Google Benchmark does, and of everything in results.context;
 /// "benchmarks" has an entry for every repetition of every row and then its mean, median, standard
-/// deviation, coefficient of variation and median absolute deviation. Times are milliseconds;
+/// deviation, coefficient of variation and median absolute deviation. Times are microseconds;
 /// "cpu_time" is "real_time" where only the device's clock saw a row.
 std::string results_json(const Results& results, const Machine& machine);
 

@@ -30,29 +30,35 @@ const std::vector<Ratio> kRatios = {
     {"10/3 the hit points: update", "room-hits", {"/kernel:update"}, 3.0},
     {"10/3 the hit points: search and update",
      "room-hits",
-     {"/kernel:gather", "/kernel:update"},
+     {"/kernel:gather", "/kernel:gather_slices", "/kernel:update"},
      3.0},
     {"10 times the photons: pass", "room-photons", {"/pass"}, 9.0},
     {"dark instead of lit: pass", "dark", {"/pass"}, 1.5},
     {"uneven instead of even: pass", "uneven", {"/pass"}, 1.5},
 };
 
-std::vector<double> ratios_of(const Results& results, const Ratio& ratio) {
-  std::vector<double> part, whole;
-  for (const char* name : ratio.rows) {
-    const Row* const row = results.find(std::string(ratio.subject) + name);
-    const Row* const base = results.find(std::string("room") + name);
-    if (!row || !base) return {};
-    const std::size_t repetitions = std::min(row->seconds.size(), base->seconds.size());
-    part.resize(repetitions);
-    whole.resize(repetitions);
-    for (std::size_t i = 0; i < repetitions; ++i) {
-      part[i] += row->seconds[i];
-      whole[i] += base->seconds[i];
+/// Seconds of the rows added up by repetition; a row that is not there takes no time.
+std::vector<double> sums_of(const Results& results, const std::string& subject,
+                            const std::vector<const char*>& names) {
+  std::vector<double> sums;
+  for (const char* name : names) {
+    const Row* const row = results.find(subject + name);
+    if (!row) continue;
+    if (sums.empty()) sums.resize(row->seconds.size());
+    for (std::size_t i = 0; i < std::min(sums.size(), row->seconds.size()); ++i) {
+      sums[i] += row->seconds[i];
     }
   }
+  return sums;
+}
+
+std::vector<double> ratios_of(const Results& results, const Ratio& ratio) {
+  const std::vector<double> part = sums_of(results, ratio.subject, ratio.rows);
+  const std::vector<double> whole = sums_of(results, "room", ratio.rows);
   std::vector<double> values;
-  for (std::size_t i = 0; i < part.size(); ++i) values.push_back(part[i] / whole[i]);
+  for (std::size_t i = 0; i < std::min(part.size(), whole.size()); ++i) {
+    values.push_back(part[i] / whole[i]);
+  }
   return values;
 }
 

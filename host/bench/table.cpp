@@ -29,8 +29,13 @@ double median_of(const Row& row, const char* counter) {
   return entry == row.counters.end() ? 0.0 : median(entry->second);
 }
 
-bool is_part(const Row& row) {
+bool has_share(const Row& row) {
   return row.counters.contains("share");
+}
+
+/// Of what stands above it.
+bool is_part(const Row& row) {
+  return has_share(row) && row.name != "compile";
 }
 
 /// Rates and memory.
@@ -51,7 +56,7 @@ std::string beside(const Row& row) {
 
 std::string line_of(const Row& row) {
   const std::string share =
-      is_part(row) ? fmt::format("{:.1f} %", 100.0 * median_of(row, "share")) : "";
+      has_share(row) ? fmt::format("{:.1f} %", 100.0 * median_of(row, "share")) : "";
   std::string line = fmt::format(
       "{:<36} {:>10} {:>10} {:>10} {:>9} {:>7}  {}", (is_part(row) ? "  " : "") + row.name,
       time_text(median(row.seconds)), time_text(least(row.seconds)), time_text(most(row.seconds)),

@@ -109,6 +109,7 @@ bench::Context context_for(const BenchOptions& options) {
           {"device", device.description().name},
           {"driver", device.description().driver},
           {"settings", settings_text(options)},
+          {"host_name", bench::describe_machine().host_name},
           {"host_threads", std::to_string(thread_count(options.render.threads))}};
 }
 

@@ -120,6 +120,7 @@ TEST(Comparison, AnotherDeviceIsToldOf) {
   Results after = baseline();
   after.context["device"] = "B";
   after.context["date"] = "today";
+  after.context["host_threads"] = "2";  // which the other does not tell
   const Comparison comparison = compare(baseline(), after, 0.1);
   ASSERT_EQ(comparison.different_context.size(), 1u);
   EXPECT_EQ(comparison.different_context[0], "device: was A, is B");

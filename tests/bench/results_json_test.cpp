@@ -74,11 +74,11 @@ TEST(ResultsJson, EveryRepetitionIsAnEntry) {
     EXPECT_EQ(entry["repetition_index"], i);
     EXPECT_EQ(entry["threads"], 1);
     EXPECT_EQ(entry["iterations"], 4);
-    EXPECT_EQ(entry["time_unit"], "ms");
+    EXPECT_EQ(entry["time_unit"], "us");
     EXPECT_EQ(entry["device_memory_bytes"], 1e9);
   }
-  EXPECT_EQ(entries[1]["real_time"], 500.0);
-  EXPECT_EQ(entries[1]["cpu_time"], 1000.0);
+  EXPECT_EQ(entries[1]["real_time"], 5e5);
+  EXPECT_EQ(entries[1]["cpu_time"], 1e6);
   EXPECT_EQ(entries[2]["photon_rays_per_second"], 4e6);
 }
 
@@ -96,19 +96,19 @@ TEST(ResultsJson, AggregatesFollow) {
   EXPECT_EQ(median["aggregate_name"], "median");
   EXPECT_EQ(median["aggregate_unit"], "time");
   EXPECT_EQ(median["iterations"], 3);
-  EXPECT_EQ(median["real_time"], 250.0);
-  EXPECT_EQ(median["cpu_time"], 500.0);
+  EXPECT_EQ(median["real_time"], 2.5e5);
+  EXPECT_EQ(median["cpu_time"], 5e5);
   EXPECT_EQ(median["photon_rays_per_second"], 2e6);
-  EXPECT_EQ(find("room/pass_mad")["real_time"], 125.0);
+  EXPECT_EQ(find("room/pass_mad")["real_time"], 1.25e5);
   // Mean 7/24 s, squared deviations 1/576, 25/576, 16/576, so that s^2 = 21/576.
-  EXPECT_NEAR(find("room/pass_mean")["real_time"].get<double>(), 7000.0 / 24.0, 1e-9);
-  EXPECT_NEAR(find("room/pass_stddev")["real_time"].get<double>(), 1000.0 * std::sqrt(21.0) / 24.0,
-              1e-9);
+  EXPECT_NEAR(find("room/pass_mean")["real_time"].get<double>(), 7e6 / 24.0, 1e-6);
+  EXPECT_NEAR(find("room/pass_stddev")["real_time"].get<double>(), 1e6 * std::sqrt(21.0) / 24.0,
+              1e-6);
   const json variation = find("room/pass_cv");
   EXPECT_EQ(variation["aggregate_unit"], "percentage");
   EXPECT_NEAR(variation["real_time"].get<double>(), std::sqrt(21.0) / 7.0, 1e-12);
   // Only the device's clock saw it.
-  EXPECT_EQ(find("room/kernel:gather_median")["cpu_time"], 62.5);
+  EXPECT_EQ(find("room/kernel:gather_median")["cpu_time"], 62500.0);
 }
 
 TEST(ResultsJson, NamesAreUniqueByRepetition) {
@@ -130,7 +130,7 @@ TEST(ResultsJson, ReadsWhatItWrote) {
   for (std::size_t i = 0; i < read.rows.size(); ++i) {
     EXPECT_EQ(read.rows[i].name, written.rows[i].name);
     EXPECT_EQ(read.rows[i].iterations, written.rows[i].iterations);
-    EXPECT_EQ(read.rows[i].seconds, written.rows[i].seconds);  // powers of two: exact in ms
+    EXPECT_EQ(read.rows[i].seconds, written.rows[i].seconds);  // powers of two: exact in us
     EXPECT_EQ(read.rows[i].counters, written.rows[i].counters);
   }
 }
