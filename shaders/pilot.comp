@@ -1,51 +1,94 @@
-// Pilot pass, step 1 of 2: how many photons lie in reach of each hit point that has no radius yet.
+// Pilot pass: the initial radius of each hit point [HOJ08 section 4: "use the photon map to estimate the radius around
+// each hit point"].
 //
-// One invocation a hit point; adds to its GATHER_SUMS the photons that count within the round's radius (no more than
-// are needed to know that there are enough) and, as `nearby`, those in the cells around. Both sums depend on the set of
-// photons alone, neither on their order nor on their division into chunks, so that radii do not either.
+// Rounds of halving radii: whoever finds fewer than PPM_PILOT_ENOUGH times the wanted photons takes
+// R^2 = r^2 * wanted / found of that round, the others go on to the next. One invocation a hit point, all of them or
+// those in CONTINUE_IN; until it has its radius, STATISTICS.w holds the footprint squared, negated. A round depends on
+// the set of photons alone, neither on their order nor on their division into chunks, so that radii do not either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/invocation.glsl"
 
+#include "lib/counters.glsl"
+#include "lib/pilot.glsl"
 #include "lib/search.glsl"
 #include "shared/ppm.h"
 
+// Whether the grid holds all photons, so that the round can be decided at once and those it does not decide be listed
+// in CONTINUE_OUT. Otherwise what is found is added to GATHER_SUMS for pilot_decide.comp.
+layout(constant_id = 0) const bool kDecide = false;
+
 layout(push_constant, scalar) uniform PushBlock { PilotPush push; };
-PPM_TEXELS(PPM_BIND_STATISTICS, statistics);
+layout(binding = PPM_BIND_STATISTICS, scalar) buffer Statistics { vec4 statistics[]; };
 layout(binding = PPM_BIND_GATHER_SUMS, scalar) buffer GatherSums { GatherSum gather_sums[]; };
+layout(binding = PPM_BIND_CONTINUE_IN, scalar) readonly buffer ContinueIn { uint continue_in[]; };
+layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { uint continue_out[]; };
 
-void main() {
-  uint hit = item_of_invocation(push.first);
-  if (hit >= push.first + push.count) return;
-  if (uintBitsToFloat(PPM_FETCH(statistics, hit).w) >= 0.0) return;  // decided, or light seen
+struct Found {
+  uint count;       // photons that count within the round's radius; no more than tell that there are enough
+  uint candidates;  // photons in the cells around; above PPM_GATHER_SLICE it is too many to look at them
+};
 
+// Which of up to 32 photons lie within the radius, a bit each.
+uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
+  uint found = 0u;
+  for (uint i = first; i < last; ++i) {
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
+    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
+  }
+  return found;
+}
+
+Found search(uint hit) {
   uvec4 plane0 = PPM_FETCH(hits_0, hit);
   vec3 position = uintBitsToFloat(plane0.xyz);
   vec3 normal = unpack_direction(plane0.w);
   float radius2 = square(push.radius);
-  CellBox box = cells_within(push.grid, position, radius2);
-  uint rows = row_count(box);
-  uint candidates = 0u;
-  for (uint i = 0u; i < rows; ++i) {
-    CellRow row = cell_row(push.grid, box, i);
-    candidates += row.end - row.begin;
-  }
-  gather_sums[hit].nearby += candidates;
-  if (candidates > PPM_GATHER_SLICE) return;  // too many to look at: enough, see pilot_decide
-
   uint enough = PPM_PILOT_ENOUGH * push.wanted;
-  uint found = 0u;
-  for (uint i = 0u; i < rows && found < enough; ++i) {
+  CellBox box = cells_within(push.grid, position, radius2);
+  Found found = Found(0u, 0u);
+  uint rows = row_count(box);
+  for (uint i = 0u; i < rows && found.count < enough && found.candidates <= PPM_GATHER_SLICE; ++i) {
     CellRow row = cell_row(push.grid, box, i);
-    for (uint j = row.begin; j < row.end && found < enough; ++j) {
-      uvec4 photon_position = PPM_FETCH(sorted_position, j);
-      if (!within(push.grid, row, position, uintBitsToFloat(photon_position.xyz), radius2)) continue;
-      if (accepts_photon(normal, unpack_direction(photon_position.w),
-                         unpack_direction(PPM_FETCH(sorted_flux, j).w))) {
-        found += 1u;
+    found.candidates += row.end - row.begin;
+    if (found.candidates > PPM_GATHER_SLICE) row.end = row.begin;
+    for (uint first = row.begin; first < row.end && found.count < enough; first += 32u) {
+      uint nearby = photons_within(row, position, radius2, first, min(first + 32u, row.end));
+      while (nearby != 0u) {
+        uint j = first + uint(findLSB(nearby));
+        nearby &= nearby - 1u;
+        bool counts = accepts_packed_photon(normal, PPM_FETCH(sorted_position, j).w, PPM_FETCH(sorted_flux, j).w);
+        found.count += counts ? 1u : 0u;
       }
     }
   }
-  gather_sums[hit].count += found;
+  return found;
+}
+
+void main() {
+  uint item = item_of_invocation(push.first);
+  if (item >= push.first + push.count) return;
+  uint hit = item;
+  if (push.from_list != 0u) hit = continue_in[item];
+  float mark = statistics[hit].w;
+  if (mark >= 0.0) return;  // decided, or light seen
+  Found found = search(hit);
+  bool crowded = found.candidates > PPM_GATHER_SLICE;
+  if (!kDecide) {
+    gather_sums[hit].nearby += found.candidates;
+    gather_sums[hit].count += found.count;
+    return;
+  }
+  // In larger cells than the round's there may be too many photons where in its own there are not.
+  if (crowded && push.coarse != 0u) {
+    count_event(PPM_COUNTER_CROWDED);
+    return;
+  }
+  float radius2 = radius2_from_round(push, mark, crowded || found.count >= PPM_PILOT_ENOUGH * push.wanted, found.count);
+  if (radius2 > 0.0) {
+    statistics[hit].w = radius2;
+  } else {
+    continue_out[atomicAdd(counters[PPM_COUNTER_UNDECIDED], 1u)] = hit;
+  }
 }

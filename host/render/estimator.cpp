@@ -7,10 +7,6 @@
 namespace ppm::render {
 namespace {
 
-// Photons wanted in a first disc: with some ten a pass the law of radii holds from the start.
-constexpr std::uint32_t kPilotPhotons = 20;
-// A first disc is never smaller than this many footprints of its pixel.
-constexpr float kLeastFootprints = 0.5f;
 // Cells of the search order, in cells of the photons' grid.
 constexpr float kOrderCell = 1.0f;
 
@@ -27,8 +23,6 @@ Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, const 
       update_(device, shaders::update),
       resolve_(device, shaders::resolve),
       radius_(device, shaders::radius),
-      pilot_(device, shaders::pilot),
-      pilot_decide_(device, shaders::pilot_decide),
       cursors_{{device, "search cursors A", tile_hits * sizeof(shared::GatherCursor),
                 gpu::Usage::storage},
                {device, "search cursors B", tile_hits * sizeof(shared::GatherCursor),
@@ -136,33 +130,6 @@ void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footpri
     recorder.dispatch(radius_, table_for(tile), shared::RadiusPush{0, 0, fixed_radius, footprints},
                       tile.hits);
   });
-}
-
-shared::PilotPush Estimator::pilot_push(const PilotRound& round) const {
-  shared::PilotPush push{};
-  push.round_index = round.index;
-  push.last_round = round.last ? 1 : 0;
-  push.radius = round.radius;
-  push.footprints_min = kLeastFootprints;
-  push.wanted = kPilotPhotons;
-  return push;
-}
-
-void Estimator::pilot_count(const HitTile& tile, const PhotonGrid& grid, const PilotRound& round) {
-  gpu::BindingTable table = table_for(tile);
-  grid.bind(table);
-  shared::PilotPush push = pilot_push(round);
-  push.grid = grid.constants();
-  device_.run([&](gpu::Recorder& recorder) { recorder.dispatch(pilot_, table, push, tile.hits); });
-}
-
-std::uint32_t Estimator::pilot_decide(const HitTile& tile, const PilotRound& round) {
-  device_.run([&](gpu::Recorder& recorder) {
-    counters_.clear(recorder);
-    recorder.dispatch(pilot_decide_, table_for(tile), pilot_push(round), tile.hits);
-    counters_.read(recorder);
-  });
-  return counters_[PPM_COUNTER_UNDECIDED];
 }
 
 void Estimator::measure_radii(std::span<const HitTile> tiles) {

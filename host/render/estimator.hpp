@@ -59,19 +59,6 @@ class Estimator {
   /// `footprints` times their pixel's footprint if positive, else the mark that the pilot replaces.
   void set_radii(const HitTile& tile, float fixed_radius, float footprints);
 
-  /// A round of the pilot (pilot.comp, pilot_decide.comp): hit points without a radius look for
-  /// photons within `radius` (working units), half of the round before.
-  struct PilotRound {
-    std::uint32_t index;
-    bool last;
-    float radius;
-  };
-  /// Counts the photons of `grid` for the tile's hit points; may be called for several chunks of
-  /// photons.
-  void pilot_count(const HitTile& tile, const PhotonGrid& grid, const PilotRound& round);
-  /// Ends the round; returns how many hit points of the tile are still without a radius.
-  std::uint32_t pilot_decide(const HitTile& tile, const PilotRound& round);
-
   /// Once radii are known and before the first `gather`: reads their histogram, and puts the tiles'
   /// hit points in search order.
   void prepare_searches(std::span<HitTile> tiles);
@@ -81,12 +68,11 @@ class Estimator {
  private:
   gpu::BindingTable table_for(const HitTile& tile) const;
   shared::GatherPush gather_push(const PhotonGrid& grid, std::uint32_t pass) const;
-  shared::PilotPush pilot_push(const PilotRound& round) const;
 
   gpu::Device& device_;
   gpu::BindingTable scene_;
   SearchOrder order_;
-  gpu::Kernel gather_, gather_slices_, update_, resolve_, radius_, pilot_, pilot_decide_;
+  gpu::Kernel gather_, gather_slices_, update_, resolve_, radius_;
   gpu::Buffer cursors_[2], histogram_buffer_;
   std::uint64_t cursor_capacity_;
   Counters counters_;

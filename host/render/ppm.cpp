@@ -19,6 +19,8 @@ constexpr float kFootprints = 3.0f;
 constexpr float kLargestRadius = 0.02f;
 // ... and halves its radius at most this often.
 constexpr std::uint32_t kPilotRounds = 12;
+// Searches of later rounds that cost about as much as sorting as many photons, times this.
+constexpr std::uint64_t kSearchesWorthSorting = 8;
 
 gpu::BindingTable scene_table(const SceneBuffers& buffers) {
   gpu::BindingTable table;
@@ -117,29 +119,44 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
 bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
   // The pilot's photons are a set of their own: radii must not depend on the photons that are
   // estimated with them. All rounds see the same ones, as many as a pass has.
+  Pilot pilot(device_, tiles_);
   float radius = kLargestRadius * buffers_.constants().bounding_radius;
-  std::uint32_t chunks = 0;
+  std::uint64_t undecided = 0;
+  bool whole = false;  // all photons are in the grid
   for (std::uint32_t index = 0; index < kPilotRounds; ++index, radius *= 0.5f) {
-    const Estimator::PilotRound round{index, index + 1 == kPilotRounds, radius};
-    const auto count = [&] {
+    const Pilot::Round round{index, index + 1 == kPilotRounds, radius};
+    if (whole) {
       if (interrupted()) return false;
-      for (const HitTile& tile : tiles_) estimator_.pilot_count(tile, grid_, round);
-      return true;
-    };
-    if (chunks == 1) {  // the photons are still there
-      grid_.build(device_, photons_, tracer_.photon_count(), radius);
-      if (!count()) return false;
-    } else if (buffers_.light_count() > 0) {
-      const std::optional<std::uint32_t> done =
-          for_each_chunk(PPM_STREAM_PILOT, 0, radius, interrupted, count);
-      if (!done) return false;
-      chunks = *done;
+      undecided = decide_again(pilot, round, undecided);
+    } else {
+      const auto use = [&] {
+        if (interrupted()) return false;
+        whole = chunk_paths_ >= settings_.photons_per_pass;
+        if (whole) {
+          undecided = *pilot.decide(grid_, round, false);
+        } else {
+          pilot.count(grid_, round);
+        }
+        return true;
+      };
+      if (buffers_.light_count() > 0 &&
+          !for_each_chunk(PPM_STREAM_PILOT, 0, radius, interrupted, use))
+        return false;
+      if (!whole) undecided = pilot.decide(round);
     }
-    std::uint64_t undecided = 0;
-    for (const HitTile& tile : tiles_) undecided += estimator_.pilot_decide(tile, round);
     if (undecided == 0) break;
   }
   return true;
+}
+
+std::uint64_t PpmIntegrator::decide_again(Pilot& pilot, const Pilot::Round& round,
+                                          std::uint64_t searches) {
+  // For a few searches the photons need not be sorted again into smaller cells.
+  if (kSearchesWorthSorting * searches < tracer_.photon_count()) {
+    if (const auto undecided = pilot.decide(grid_, round, true)) return *undecided;
+  }
+  grid_.build(device_, photons_, tracer_.photon_count(), round.radius);
+  return *pilot.decide(grid_, round, false);
 }
 
 Picture PpmIntegrator::resolve() {

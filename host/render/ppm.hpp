@@ -11,6 +11,7 @@
 #include "pass_capacities.hpp"
 #include "photon_grid.hpp"
 #include "photon_tracer.hpp"
+#include "pilot.hpp"
 #include "scene_buffers.hpp"
 
 namespace ppm::render {
@@ -33,6 +34,8 @@ class PpmIntegrator final : public Integrator {
   bool trace_eye_paths(const std::function<bool()>& interrupted);
   bool find_initial_radii(const std::function<bool()>& interrupted);
   bool run_pilot(const std::function<bool()>& interrupted);
+  /// A further round of the pilot among the photons that the grid holds, for so many hit points.
+  std::uint64_t decide_again(Pilot& pilot, const Pilot::Round& round, std::uint64_t searches);
   /// Traces all paths of a pass in chunks that fit, and calls `use` with the photons of each in the
   /// grid, in cells of `cell` working units. Returns how many chunks it took; nothing when
   /// interrupted, by itself or by `use`.

@@ -46,12 +46,12 @@
 #define PPM_BIND_HITS_3 26
 #define PPM_BIND_SAMPLE_START \
   27  // uint: first hit point of each (pixel, sample), one more at the end
-#define PPM_BIND_STATISTICS 28        // vec4: lambda, radius squared
-#define PPM_BIND_PHOTON_COUNTS 29     // uint: C, all photons ever accepted
-#define PPM_BIND_GATHER_SUMS 30       // GatherSum
-#define PPM_BIND_CONTINUE_IN 31       // GatherCursor: searches to be continued
-#define PPM_BIND_CONTINUE_OUT 32      // GatherCursor
-#define PPM_BIND_PIXELS 33            // vec4: radiance of each pixel of the tile
+#define PPM_BIND_STATISTICS 28     // vec4: lambda, radius squared
+#define PPM_BIND_PHOTON_COUNTS 29  // uint: C, all photons ever accepted
+#define PPM_BIND_GATHER_SUMS 30    // GatherSum
+#define PPM_BIND_CONTINUE_IN 31   // GatherCursor: searches to be continued; pilot: uint, hit points
+#define PPM_BIND_CONTINUE_OUT 32  // GatherCursor
+#define PPM_BIND_PIXELS 33        // vec4: radiance of each pixel of the tile
 #define PPM_BIND_RADIUS_HISTOGRAM 34  // uint[PPM_RADIUS_BINS]
 #define PPM_BIND_SEARCH_ORDER 35      // uint: hit points, neighbours in space together
 

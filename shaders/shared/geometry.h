@@ -48,16 +48,23 @@ PPM_FN uint pack_direction(vec3 direction) {
   return qx | (qy << 16u);
 }
 
-PPM_FN vec3 unpack_direction(uint bits) {
-  float x = (float(bits & 0xffffu) - 32767.0f) * (1.0f / 32767.0f);
-  float y = (float(bits >> 16u) - 32767.0f) * (1.0f / 32767.0f);
+// A vector along the packed direction, not shorter than 1 / sqrt(3) and not longer than 1.
+PPM_FN vec3 unpack_octahedral(uint bits) {
+  // By way of int, which converts in fewer steps on CPUs.
+  float x = (float(int(bits & 0xffffu)) - 32767.0f) * (1.0f / 32767.0f);
+  float y = (float(int(bits >> 16u)) - 32767.0f) * (1.0f / 32767.0f);
   float z = 1.0f - abs(x) - abs(y);
   if (z < 0.0f) {
     float folded = (1.0f - abs(y)) * sign_not_zero(x);
     y = (1.0f - abs(x)) * sign_not_zero(y);
     x = folded;
   }
-  return vec3(x, y, z) * (1.0f / sqrt(x * x + y * y + z * z));  // one division, not three
+  return vec3(x, y, z);
+}
+
+PPM_FN vec3 unpack_direction(uint bits) {
+  vec3 v = unpack_octahedral(bits);
+  return v * (1.0f / sqrt(v.x * v.x + v.y * v.y + v.z * v.z));  // one division, not three
 }
 
 // Sine and cosine of 2 pi u for u in [0, 1): Vulkan grants sin and cos only 2^-11.

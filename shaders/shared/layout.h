@@ -136,7 +136,8 @@ struct SceneConstants {
 #define PPM_COUNTER_UNDECIDED 9       // hit points for which the pilot has no radius yet
 #define PPM_COUNTER_PHOTON_RAYS 10    // segments of the photon paths that have ended
 #define PPM_COUNTER_EYE_RAYS \
-  11  // segments of eye paths, in dispatches that follow them for several
+  11                            // segments of eye paths, in dispatches that follow them for several
+#define PPM_COUNTER_CROWDED 12  // hit points with too many photons in cells larger than wanted
 #define PPM_COUNTER_COUNT 16
 
 // ---- Batches of photon passes
@@ -345,6 +346,8 @@ struct PilotPush {
   float radius;          // searched in this round
   float footprints_min;  // lower clamp of the result, in footprints
   uint wanted;           // photons wanted in a disc
+  uint from_list;        // 0: items are hit points; 1: items are CONTINUE_IN
+  uint coarse;           // 1: the cells are larger than those of the round
   GridConstants grid;
 };
 

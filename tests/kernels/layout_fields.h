@@ -63,7 +63,7 @@
 #define PPM_FIELDS_RESOLVE_PUSH(r) U1(r.first) U1(r.count) U1(r.samples) U1(r.skip) F1(r.scale)
 #define PPM_FIELDS_PILOT_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.round_index) U1(r.last_round) F1(r.radius) F1(r.footprints_min) \
-  U1(r.wanted) PPM_FIELDS_GRID_CONSTANTS(r.grid)
+  U1(r.wanted) U1(r.from_list) U1(r.coarse) PPM_FIELDS_GRID_CONSTANTS(r.grid)
 #define PPM_FIELDS_RADIUS_PUSH(r) U1(r.first) U1(r.count) F1(r.fixed_radius) F1(r.footprints)
 
 // RECORD(type, name, fields), in the order in which one block holds two of each.

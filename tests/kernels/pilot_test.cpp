@@ -8,6 +8,7 @@
 #include "device_fixture.hpp"
 #include "integrator.hpp"
 #include "photon_grid.hpp"
+#include "pilot.hpp"
 #include "randoms.hpp"
 #include "scene_pieces.hpp"
 #include "synthetic_photons.hpp"
@@ -23,6 +24,36 @@ constexpr double kWanted = 20.0;  // photons in a first disc (DESIGN: n of the n
 
 class Pilot : public DeviceTest {
  protected:
+  enum class Photons {
+    whole,    // all in the grid, sorted anew for every round
+    coarse,   // all in the grid, sorted anew only when a round asks for it
+    chunked,  // in three parts
+  };
+  Photons photons_come = Photons::whole;
+
+  void build(render::PhotonGrid& grid, std::span<const Photon> photons, float cell) {
+    const PhotonBuffers buffers(device(), photons);
+    grid.build(device(), buffers.table(), static_cast<std::uint32_t>(photons.size()), cell);
+  }
+
+  std::uint64_t run_round(render::Pilot& pilot, render::PhotonGrid& grid,
+                          std::span<const Photon> photons, const render::Pilot::Round& round) {
+    if (photons_come == Photons::chunked) {
+      for (std::size_t part = 0; part < 3; ++part) {
+        const std::size_t first = photons.size() * part / 3;
+        const std::size_t last = photons.size() * (part + 1) / 3;
+        build(grid, photons.subspan(first, last - first), round.radius);
+        pilot.count(grid, round);
+      }
+      return pilot.decide(round);
+    }
+    if (photons_come == Photons::coarse && round.index > 0) {
+      if (const auto undecided = pilot.decide(grid, round, true)) return *undecided;
+    }
+    build(grid, photons, round.radius);
+    return pilot.decide(grid, round, false).value();
+  }
+
   // Rounds of halved radii from `largest` on, as the integrator runs them.
   std::vector<double> radii2(std::span<const vec3> positions, std::span<const Photon> photons,
                              float footprint, float largest, std::uint32_t rounds = 12) {
@@ -32,13 +63,11 @@ class Pilot : public DeviceTest {
     SyntheticEstimator estimator(device(), hits.size());
     estimator->set_radii(tile, 0.0f, 0.0f);
     render::PhotonGrid grid(device(), vec3(-1.0f), vec3(1.0f), photons.size());
-    const PhotonBuffers buffers(device(), photons);
+    render::Pilot pilot(device(), std::span(&tile, 1));
     float radius = largest;
     for (std::uint32_t index = 0; index < rounds; ++index, radius *= 0.5f) {
-      const render::Estimator::PilotRound round{index, index + 1 == rounds, radius};
-      grid.build(device(), buffers.table(), static_cast<std::uint32_t>(photons.size()), radius);
-      estimator->pilot_count(tile, grid, round);
-      if (estimator->pilot_decide(tile, round) == 0) break;
+      const render::Pilot::Round round{index, index + 1 == rounds, radius};
+      if (run_round(pilot, grid, photons, round) == 0) break;
     }
     std::vector<double> result;
     for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(hits.size()))
@@ -115,6 +144,20 @@ TEST_F(Pilot, TheDarkGetsTheLargestAndTheBrightTheLeast) {
   const std::vector<double> found = radii2(positions, photons, footprint, 0.1f);
   EXPECT_NEAR(found[0], 0.01, 1e-8);
   EXPECT_NEAR(found[1], 0.25 * footprint * footprint, 1e-11);  // half a footprint
+}
+
+TEST_F(Pilot, HoweverPhotonsComeTheRadiiAreTheSame) {
+  std::vector<Photon> photons = lit_plane(40000, 7);
+  Randoms random(8);
+  for (int i = 0; i < 12000; ++i)  // some cells have too many to look at, others nearly
+    photons.push_back(photon_at(vec3(0.3f, 0.2f, 0.0f) + 0.04f * random.in_cube(1.0f)));
+  const std::vector<vec3> positions = inner_positions(2000, 9);
+  const std::vector<double> expected = radii2(positions, photons, 1e-4f, 0.3f);
+  EXPECT_LT(*std::ranges::min_element(expected), 0.1 * *std::ranges::max_element(expected));
+  for (const Photons way : {Photons::coarse, Photons::chunked}) {
+    photons_come = way;
+    EXPECT_EQ(radii2(positions, photons, 1e-4f, 0.3f), expected);
+  }
 }
 
 TEST_F(Pilot, PhotonsOfTheOtherSideDoNotCount) {
