@@ -66,6 +66,7 @@ class Run {
   double start_seconds() const { return start_seconds_; }
 
  private:
+  bool advance(std::uint64_t passes);
   void add_start(double cpu, const std::map<std::string, double>& parts);
   void add_pass_counters(Row& row, const render::Statistics& before, double seconds);
   /// A row for each kernel, by its name.
@@ -108,7 +109,7 @@ bool Run::start() {
   if (!integrator_->prepare(interrupted_)) return false;
   lap("prepare");
   const KernelTimes prepared = device_->times();
-  if (!integrator_->advance(interrupted_)) return false;
+  if (!advance(1)) return false;
   lap("first pass");
   integrator_->resolve();
   lap("resolve");
@@ -155,21 +156,25 @@ void Run::add_start(double cpu, const std::map<std::string, double>& parts) {
   }
 }
 
-bool Run::warm_up() {
-  for (std::uint64_t pass = 1; pass < plan_.warmup; ++pass) {
-    if (!integrator_->advance(interrupted_)) return false;
+bool Run::advance(std::uint64_t passes) {
+  while (passes > 0) {
+    const std::uint64_t made =
+        interrupted_() ? 0 : integrator_->advance_up_to(passes, interrupted_);
+    if (made == 0) return false;
+    passes -= made;
   }
   return true;
+}
+
+bool Run::warm_up() {
+  return advance(plan_.warmup - 1);
 }
 
 bool Run::measure_passes(const std::string& stage) {
   const KernelTimes times_before = device_->times();
   const render::Statistics before = integrator_->statistics();
   const double cpu = processor_seconds(), start = clock_seconds();
-  for (std::uint64_t pass = 0; pass < plan_.passes; ++pass) {
-    if (!integrator_->advance(interrupted_)) return false;
-  }
-  integrator_->statistics();  // whatever is still under way has ended
+  if (!advance(plan_.passes)) return false;
   const double passes = static_cast<double>(plan_.passes);
   const double seconds = (clock_seconds() - start) / passes;
   const double cpu_seconds = (processor_seconds() - cpu) / passes;
@@ -231,9 +236,8 @@ void Run::add_kernel_rates(const std::map<std::string, Row*>& kernels,
 
 bool Run::age() {
   const std::uint64_t wanted = passes_until_half(settings_.alpha);
-  while (integrator_->statistics().passes < wanted) {
-    if (!integrator_->advance(interrupted_)) return false;
-  }
+  const std::uint64_t made = integrator_->statistics().passes;
+  if (made < wanted && !advance(wanted - made)) return false;
   for (unsigned repetition = 0; repetition < plan_.repetitions; ++repetition) {
     if (!measure_passes("/aged")) return false;
   }
