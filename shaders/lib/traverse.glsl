@@ -185,10 +185,11 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
       uint last = slot + ((ref >> 29u) & 3u);
       do {  // two at a time: while one waits for memory and its division, so does the other
         uint other = min(slot + 1u, last);
+        TriangleCorners corners0 = fetch_triangle(slot), corners1 = fetch_triangle(other);
         float t0, t1;
         vec2 barycentric0, barycentric1;
-        bool met0 = intersect_triangle(fetch_triangle(slot), origin, frame, hit.t, t0, barycentric0);
-        bool met1 = intersect_triangle(fetch_triangle(other), origin, frame, hit.t, t1, barycentric1);
+        bool met0 = intersect_triangle(corners0, origin, frame, hit.t, t0, barycentric0);
+        bool met1 = intersect_triangle(corners1, origin, frame, hit.t, t1, barycentric1);
         if (met0 && slot != skip && hit_filter(slot, barycentric0)) hit = Hit(t0, slot, barycentric0);
         if (met1 && t1 < hit.t && other != skip && hit_filter(other, barycentric1)) hit = Hit(t1, other, barycentric1);
         if (any && hit.triangle != PPM_NO_TRIANGLE) return hit;
