@@ -1,5 +1,5 @@
 // The developer's benchmark: measured beside Embree in the same run, alternately, so that figures
-// hold on machines whose speed wanders. Medians of five repeats. Run it on an idle machine:
+// hold on machines whose speed wanders. Medians of five repeats or more. Run it on an idle machine:
 // ppm_benchmark [THREADS] [PART...], PART rendering, traversal or trees; all by default
 #include <fmt/core.h>
 

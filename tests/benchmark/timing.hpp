@@ -8,6 +8,7 @@
 namespace ppm::benchmark {
 
 inline constexpr int kRepeats = 5;
+inline constexpr int kRayRepeats = 11;  ///< of what takes some ten milliseconds
 
 inline double median(std::vector<double> values) {
   std::ranges::sort(values);

@@ -37,7 +37,7 @@ void compare_rays(const Bench& bench, const EmbreeScene& embree, const bvh::Bvh&
   KernelRays kernel(bench.device, tree, triangles, rays);
   kernel.rays_per_second();  // compiles
   std::vector<double> theirs, ours, ratio;
-  for (int i = 0; i < kRepeats; ++i) {
+  for (int i = 0; i < kRayRepeats; ++i) {
     const double before = rays_per_second(embree, rays, bench.threads);
     ours.push_back(kernel.rays_per_second());
     theirs.push_back(0.5 * (before + rays_per_second(embree, rays, bench.threads)));

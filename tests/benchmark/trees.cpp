@@ -47,7 +47,7 @@ void trace_all(const Bench& bench, std::span<const scene::Triangle> triangles,
   std::deque<KernelRays> kernels;
   for (const Candidate& candidate : candidates)
     kernels.emplace_back(bench.device, candidate.tree, triangles, rays).rays_per_second();
-  for (int i = 0; i < 2 * kRepeats; ++i)
+  for (int i = 0; i < kRayRepeats; ++i)
     for (std::size_t k = 0; k < kernels.size(); ++k)
       (candidates[k].*rates).push_back(kernels[k].rays_per_second());
 }
