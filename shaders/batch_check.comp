@@ -1,7 +1,7 @@
 // Whether a batch of passes may go on: decided on the device, so that the host need not look on.
 //
 // One invocation. After tracing: every path has ended and the photons of every pass fit. After the searches of a
-// pass: none is left to be continued. Otherwise BatchWords::go_on becomes 0, nothing recorded later has any items, and
+// tile: none is left to be continued. Otherwise BatchWords::go_on becomes 0, nothing recorded later has any items, and
 // the host finds out where to take over.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +22,8 @@ void after_tracing() {
 
 void after_search() {
   if (counters[PPM_COUNTER_CONTINUE] != 0u) batch.go_on = 0u;
-  if (batch.go_on == 0u) return;
+  counters[PPM_COUNTER_CONTINUE] = 0u;  // nor may anything be continued
+  if (batch.go_on == 0u || push.step != PPM_CHECK_ALL_SEARCHED) return;
   batch.completed = push.pass + 1u;
   batch.clamped = counters[PPM_COUNTER_CLAMPED];
   batch.overflow = counters[PPM_COUNTER_OVERFLOW];
@@ -30,7 +31,7 @@ void after_search() {
 
 void main() {
   if (item_of_invocation(push.first) != push.first) return;
-  if (push.searched == 0u) {
+  if (push.step == PPM_CHECK_TRACED) {
     after_tracing();
   } else {
     after_search();

@@ -30,7 +30,7 @@ void leave_cursor(uint hit, uint row, uint offset) {
 
 void main() {
   uint item = item_of_invocation(push.first);
-  if (item >= push.first + push.count) return;
+  if (item >= push.first + push.count || item >= counters[PPM_COUNTER_SEARCHES]) return;
   GatherCursor cursor = continue_in[item];
   Receiver receiver = fetch_receiver(cursor.hit);
   float radius2 = fetch_radius2(cursor.hit);

@@ -20,6 +20,15 @@ class Counters {
   void clear(gpu::Recorder& recorder, std::uint32_t counter) const {
     recorder.fill(buffer_, 0, sizeof(std::uint32_t), counter * sizeof(std::uint32_t));
   }
+  /// One counter takes the value of another, which becomes zero.
+  void move(gpu::Recorder& recorder, std::uint32_t from, std::uint32_t to) const {
+    recorder.copy(buffer_, buffer_, 4, 4 * from, 4 * to);
+    clear(recorder, from);
+  }
+  /// As many items as the counter says, `most` at most.
+  gpu::DeviceCount count(std::uint32_t counter, std::uint64_t most) const {
+    return {buffer_, counter, most, most};
+  }
   /// The values are in place when the submission has ended.
   void read(gpu::Recorder& recorder) { recorder.read(buffer_, values_.data(), sizeof(Values)); }
 

@@ -1,5 +1,7 @@
 #include "estimator.hpp"
 
+#include <algorithm>
+
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 #include "shared/layout.h"
@@ -7,6 +9,8 @@
 namespace ppm::render {
 namespace {
 
+// Dispatches that one pass of a batch gives to long searches at most.
+constexpr std::uint32_t kMostSlices = 32;
 // Cells of the search order, in cells of the photons' grid.
 constexpr float kOrderCell = 1.0f;
 
@@ -39,6 +43,10 @@ gpu::BindingTable Estimator::table_for(const HitTile& tile) const {
   return table;
 }
 
+bool Estimator::searches_fit_batch() const {
+  return usual_slices_ <= kMostSlices;
+}
+
 shared::GatherPush Estimator::gather_push(const PhotonGrid& grid, std::uint32_t pass) const {
   shared::GatherPush push{};
   push.grid = grid.constants(pass);
@@ -50,22 +58,25 @@ Estimator::Rejected Estimator::gather(const HitTile& tile, const PhotonGrid& gri
   gpu::BindingTable table = table_for(tile);
   grid.bind(table);
   const gpu::Region region(device_, "gather");
-  shared::GatherPush push = gather_push(grid, 0);
-  std::uint32_t searches = tile.searches;
-  Rejected rejected;
-  for (std::uint32_t round = 0; searches > 0; ++round) {
+  const shared::GatherPush push = gather_push(grid, 0);
+  std::uint32_t searches = tile.searches, round = 0;
+  for (; searches > 0; ++round) {
     table.set(PPM_BIND_CONTINUE_IN, cursors_[round % 2]);
     table.set(PPM_BIND_CONTINUE_OUT, cursors_[(round + 1) % 2]);
     device_.run([&](gpu::Recorder& recorder) {
-      counters_.clear(recorder);
-      recorder.dispatch(round == 0 ? gather_ : gather_slices_, table, push, searches);
+      if (round == 0) {
+        counters_.clear(recorder);
+        recorder.dispatch(gather_, table, push, searches);
+      } else {
+        counters_.move(recorder, PPM_COUNTER_CONTINUE, PPM_COUNTER_SEARCHES);
+        recorder.dispatch(gather_slices_, table, push, searches);
+      }
       counters_.read(recorder);
     });
-    rejected.overflow += counters_[PPM_COUNTER_OVERFLOW];
-    rejected.clamped += counters_[PPM_COUNTER_CLAMPED];
     searches = counters_[PPM_COUNTER_CONTINUE];
   }
-  return rejected;
+  usual_slices_ = std::max({round, usual_slices_, 1u}) - 1;
+  return {counters_[PPM_COUNTER_OVERFLOW], counters_[PPM_COUNTER_CLAMPED]};
 }
 
 void Estimator::record_gather(gpu::Recorder& recorder, const HitTile& tile, const PhotonGrid& grid,
@@ -73,9 +84,18 @@ void Estimator::record_gather(gpu::Recorder& recorder, const HitTile& tile, cons
   const gpu::Region region(device_, "gather");
   gpu::BindingTable table = table_for(tile);
   grid.bind(table);
-  table.set(PPM_BIND_CONTINUE_IN, cursors_[0]);
-  table.set(PPM_BIND_CONTINUE_OUT, cursors_[1]);
-  recorder.dispatch(gather_, table, gather_push(grid, pass), batch.if_going_on(tile.searches));
+  const shared::GatherPush push = gather_push(grid, pass);
+  for (std::uint32_t round = 0; round <= usual_slices_; ++round) {
+    table.set(PPM_BIND_CONTINUE_IN, cursors_[round % 2]);
+    table.set(PPM_BIND_CONTINUE_OUT, cursors_[(round + 1) % 2]);
+    if (round == 0) {
+      recorder.dispatch(gather_, table, push, batch.if_going_on(tile.searches));
+    } else {
+      counters_.move(recorder, PPM_COUNTER_CONTINUE, PPM_COUNTER_SEARCHES);
+      recorder.dispatch(gather_slices_, table, push,
+                        counters_.count(PPM_COUNTER_SEARCHES, tile.searches));
+    }
+  }
 }
 
 void Estimator::update(std::span<const HitTile> tiles, float alpha) {

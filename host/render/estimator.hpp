@@ -30,10 +30,11 @@ class Estimator {
   Rejected gather(const HitTile& tile, const PhotonGrid& grid);
 
   /// The parts of a batch (PassBatch). Searches among the photons of one pass of the grid, as long
-  /// as the batch may go on; searches that are left, rejected terms and clamped factors are in the
-  /// counters.
+  /// as the batch may go on, long ones in as many dispatches as `gather` needed last. Searches that
+  /// are left, rejected terms and clamped factors are in the counters.
   void record_gather(gpu::Recorder& recorder, const HitTile& tile, const PhotonGrid& grid,
                      std::uint32_t pass, const DeviceBatch& batch);
+  bool searches_fit_batch() const;  ///< the dispatches that `gather` needed are few enough
   void clear_counters(gpu::Recorder& recorder) const { counters_.clear(recorder); }
   void bind_counters(gpu::BindingTable& table) const { counters_.bind(table); }
   /// As `update`; with a batch, as long as it may go on. The histogram is read apart.
@@ -75,6 +76,8 @@ class Estimator {
   gpu::Kernel gather_, gather_slices_, update_, resolve_, radius_;
   gpu::Buffer cursors_[2], histogram_buffer_;
   std::uint64_t cursor_capacity_;
+  std::uint32_t usual_slices_ = 0;  // dispatches after the first: of the last tile, or one less
+                                    // than of an earlier one
   Counters counters_;
   std::array<std::uint32_t, PPM_RADIUS_BINS> radius_histogram_{};
 };

@@ -70,7 +70,7 @@ PassBatch::Result PassBatch::make(std::span<const HitTile> tiles, const Request&
 }
 
 void PassBatch::record_sort(gpu::Recorder& recorder, const Request& request) {
-  record_check(recorder, request, false, 0);
+  record_check(recorder, request, PPM_CHECK_TRACED, 0);
   grid_.record(recorder, photons_,
                {tracer_.batch(), request.passes, tracer_.photon_share(request.passes),
                 tracer_.expected_photons(request.paths)},
@@ -87,9 +87,11 @@ bool PassBatch::record_passes(gpu::Recorder& recorder, std::span<const HitTile> 
       stopped = interrupted();
       if (stopped) break;
       estimator_.record_gather(recorder, tile, grid_, pass, tracer_.batch());
+      const bool last = &tile == &tiles.back();
+      record_check(recorder, request, last ? PPM_CHECK_ALL_SEARCHED : PPM_CHECK_TILE_SEARCHED,
+                   pass);
     }
     if (stopped) break;
-    record_check(recorder, request, true, pass);
     estimator_.record_update(recorder, tiles, request.alpha, &tracer_.batch());
   }
   estimator_.read_histogram(recorder);
@@ -97,10 +99,10 @@ bool PassBatch::record_passes(gpu::Recorder& recorder, std::span<const HitTile> 
   return !stopped;
 }
 
-void PassBatch::record_check(gpu::Recorder& recorder, const Request& request, bool searched,
+void PassBatch::record_check(gpu::Recorder& recorder, const Request& request, std::uint32_t step,
                              std::uint32_t pass) const {
   recorder.dispatch(check_, check_table_,
-                    shared::BatchCheckPush{0, 0, searched ? 1u : 0u, pass, request.passes,
+                    shared::BatchCheckPush{0, 0, step, pass, request.passes,
                                            tracer_.photon_share(request.passes), tracer_.rounds()},
                     1);
 }

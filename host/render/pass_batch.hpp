@@ -30,7 +30,7 @@ class PassBatch {
     complete,
     interrupted,
     photons_overflow,  ///< those of one pass do not fit its share: none was made
-    long_searches,     ///< some searches met more photons than one dispatch looks at
+    long_searches,     ///< some searches met more photons than the recorded dispatches look at
   };
   struct Result {
     End end = End::complete;
@@ -47,7 +47,7 @@ class PassBatch {
   void record_sort(gpu::Recorder& recorder, const Request& request);
   bool record_passes(gpu::Recorder& recorder, std::span<const HitTile> tiles,
                      const Request& request, const std::function<bool()>& interrupted);
-  void record_check(gpu::Recorder& recorder, const Request& request, bool searched,
+  void record_check(gpu::Recorder& recorder, const Request& request, std::uint32_t step,
                     std::uint32_t pass) const;
 
   gpu::Device& device_;

@@ -78,9 +78,9 @@ class PpmIntegrator final : public Integrator {
   Estimator estimator_;
   PassBatch batch_;
   std::vector<HitTile> tiles_;
-  std::uint32_t chunk_paths_;          // paths traced at a time, at most
-  std::uint32_t batch_limit_;          // passes recorded at a time, at most
-  std::uint32_t passes_in_steps_ = 0;  // to come, after searches that were too long for a batch
+  std::uint32_t chunk_paths_;  // paths traced at a time, at most
+  std::uint32_t batch_limit_;  // passes recorded at a time, at most
+  bool in_steps_ = false;      // the next pass: its searches are too long for a batch
   Statistics statistics_;
 };
 

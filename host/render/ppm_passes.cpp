@@ -7,12 +7,6 @@
 #include "stopwatch.hpp"
 
 namespace ppm::render {
-namespace {
-
-// A pass that has too long searches for a batch is followed by more of them, until radii shrink.
-constexpr std::uint32_t kPassesInSteps = 8;
-
-}  // namespace
 
 std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream, std::uint32_t pass,
                                                            float cell,
@@ -80,7 +74,8 @@ std::optional<std::uint32_t> PpmIntegrator::advance_lit(std::uint64_t passes, fl
 }
 
 std::uint32_t PpmIntegrator::batch_size(std::uint64_t passes, float cell) const {
-  if (passes_in_steps_ > 0 || chunk_paths_ < settings_.photons_per_pass) return 0;
+  if (in_steps_ || !estimator_.searches_fit_batch()) return 0;
+  if (chunk_paths_ < settings_.photons_per_pass) return 0;
   return batch_.fitting(std::min<std::uint64_t>(passes, batch_limit_), settings_.photons_per_pass,
                         cell);
 }
@@ -93,7 +88,7 @@ std::optional<std::uint32_t> PpmIntegrator::advance_batch(
                    static_cast<std::uint32_t>(settings_.photons_per_pass),
                    static_cast<float>(settings_.alpha), cell},
                   interrupted);
-  if (result.end == PassBatch::End::long_searches) passes_in_steps_ = kPassesInSteps;
+  if (result.end == PassBatch::End::long_searches) in_steps_ = true;
   if (result.end == PassBatch::End::photons_overflow) {
     if (passes > 1) {
       batch_limit_ = (passes + 1) / 2;
@@ -133,7 +128,7 @@ bool PpmIntegrator::advance_in_steps(float cell, const std::function<bool()>& in
   }
   estimator_.update(tiles_, static_cast<float>(settings_.alpha));
   record(tally);
-  if (passes_in_steps_ > 0) --passes_in_steps_;
+  in_steps_ = false;
   return true;
 }
 

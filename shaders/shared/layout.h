@@ -138,6 +138,7 @@ struct SceneConstants {
 #define PPM_COUNTER_EYE_RAYS \
   11                            // segments of eye paths, in dispatches that follow them for several
 #define PPM_COUNTER_CROWDED 12  // hit points with too many photons in cells larger than wanted
+#define PPM_COUNTER_SEARCHES 13  // that gather_slices.comp goes on with
 #define PPM_COUNTER_COUNT 16
 
 // ---- Batches of photon passes
@@ -158,10 +159,14 @@ struct BatchWords {
   uint sortable[PPM_BATCH_LIMIT];    // the same once all of the batch are known to fit
 };
 
+// What has just been done.
+#define PPM_CHECK_TRACED 0u         // all paths of the batch
+#define PPM_CHECK_TILE_SEARCHED 1u  // one tile, for one pass
+#define PPM_CHECK_ALL_SEARCHED 2u   // the last tile, idem
 struct BatchCheckPush {
   uint first, count;
-  uint searched;      // 0: paths have been traced; 1: a pass's photons have been searched
-  uint pass;          // of the batch, when searched
+  uint step;          // PPM_CHECK_*
+  uint pass;          // of the batch, once searched
   uint passes;        // of the batch
   uint photon_share;  // room for the photons of one pass
   uint rounds;        // that were recorded

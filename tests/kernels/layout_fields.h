@@ -33,7 +33,7 @@
   U1(r.first) U1(r.count) U1(r.pass) U1(r.paths) U1(r.passes) U1(r.emit_first) U1(r.generate) \
   U1(r.photon_share) U1(r.path_capacity) U1(r.stream) U1(r.round)
 #define PPM_FIELDS_BATCH_CHECK_PUSH(r) \
-  U1(r.first) U1(r.count) U1(r.searched) U1(r.pass) U1(r.passes) U1(r.photon_share) U1(r.rounds)
+  U1(r.first) U1(r.count) U1(r.step) U1(r.pass) U1(r.passes) U1(r.photon_share) U1(r.rounds)
 #define PPM_FIELDS_BATCH_WORDS(r) \
   U1(r.go_on) U1(r.completed) U1(r.clamped) U1(r.overflow) \
   PPM_FIELDS_16(r.alive, 0) PPM_FIELDS_16(r.alive, 16) U1(r.alive[32]) \

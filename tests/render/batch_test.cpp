@@ -104,16 +104,20 @@ TEST_F(Batch, OfTooManyPhotonsIsMadeSmaller) {
 }
 
 // Discs with more photons than one dispatch looks at: chunks of few photons know nothing of that.
-TEST_F(Batch, WithLongSearchesIsFinishedByTheHost) {
+TEST_F(Batch, WithLongSearchesIsFinishedByTheHostAndThenByItself) {
   settings_.radius_mode = render::RadiusMode::fixed;
   settings_.radius = 0.7;
   settings_.photons_per_pass = 20000;
-  settings_.photon_capacity = 6000;
-  const Run chunked = run(1);
-  settings_.photon_capacity = 1u << 19;
-  const Run batched = run(4);
-  EXPECT_EQ(batched.made.front(), 1u);
-  expect_same(batched, chunked);
+  for (const std::uint64_t tile_hits : {1u << 20, 900u}) {
+    settings_.tile_hits = tile_hits;
+    settings_.photon_capacity = 6000;
+    const Run chunked = run(1);
+    settings_.photon_capacity = 1u << 19;
+    const Run batched = run(4);
+    EXPECT_EQ(batched.made.front(), 1u);
+    EXPECT_EQ(batched.made.back(), 2u);
+    expect_same(batched, chunked);
+  }
 }
 
 // Says yes at the n-th time it is asked, and from then on.
