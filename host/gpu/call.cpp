@@ -1,5 +1,7 @@
 #include "call.hpp"
 
+#include <atomic>
+
 #include "failure.hpp"
 
 namespace ppm::gpu {
@@ -33,7 +35,8 @@ FaultInjection& fault_injection() {
 
 bool fault_is_due(const char* call) {
   FaultInjection& injection = fault_injection();
-  if (++injection.calls != injection.fail_at) return false;
+  // Kernels may be made by another thread.
+  if (++std::atomic_ref(injection.calls) != injection.fail_at) return false;
   injection.failed = call;
   return true;
 }

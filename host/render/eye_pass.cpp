@@ -42,18 +42,22 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
                                  device.max_storage_bytes() / sizeof(shared::HitPoint));
 }
 
-EyePass::EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Settings& settings)
+EyeKernels::EyeKernels(gpu::Device& device)
+    : start(device, shaders::eye, {{kGenerate, 1}}),
+      go_on(device, shaders::eye, {{kGenerate, 0}}),
+      scatter(device, shaders::eye_scatter),
+      order(device, shaders::eye_order) {}
+
+EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+                 const Settings& settings)
     : device_(device),
+      kernels_(kernels),
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
       capacity_(tile_capacity(settings, device)),
       queue_capacity_(queue_capacity(settings, capacity_)),
       hits_per_pixel_(kHitsPerPath * samples_),
       table_(scene),
-      start_(device, shaders::eye, {{kGenerate, 1}}),
-      continue_(device, shaders::eye, {{kGenerate, 0}}),
-      scatter_(device, shaders::eye_scatter),
-      order_(device, shaders::eye_order),
       scan_(device, queue_capacity_),
       queue_{
           {device, "eye paths A", queue_capacity_ * sizeof(shared::EyePath), gpu::Usage::storage},
@@ -138,7 +142,7 @@ EyePass::Result EyePass::trace_paths(const HitTile& tile, std::uint64_t room,
       } else {
         counters_.clear(recorder, PPM_COUNTER_PATHS_OUT);
       }
-      recorder.dispatch(round == 0 ? start_ : continue_, table, push, alive);
+      recorder.dispatch(round == 0 ? kernels_.start : kernels_.go_on, table, push, alive);
       counters_.read(recorder);
     });
     alive = counters_[PPM_COUNTER_PATHS_OUT];
@@ -166,8 +170,8 @@ void EyePass::order_hits(HitTile& tile) {
   push.samples = samples_;
   device_.run([&](gpu::Recorder& recorder) {
     scan_.record(recorder, group_count_, tile.sample_start, groups);
-    recorder.dispatch(scatter_, table, push, tile.hits);
-    recorder.dispatch(order_, table, push, tile.hits);
+    recorder.dispatch(kernels_.scatter, table, push, tile.hits);
+    recorder.dispatch(kernels_.order, table, push, tile.hits);
     recorder.fill(tile.photon_counts, 0, tile.photon_counts.bytes());
     recorder.fill(tile.sums, 0, tile.sums.bytes());
     counters_.read(recorder);

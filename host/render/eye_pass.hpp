@@ -15,10 +15,17 @@ namespace ppm::render {
 /// Hit points a tile holds at most: as many as asked for, or as the device's largest buffer takes.
 std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device);
 
+/// What takes long to make and depends on the device alone.
+struct EyeKernels {
+  explicit EyeKernels(gpu::Device& device);
+  gpu::Kernel start, go_on, scatter, order;
+};
+
 /// Queues and sorting memory of the eye pass; needed only while tiles are made.
 class EyePass {
  public:
-  EyePass(gpu::Device& device, const gpu::BindingTable& scene, const Settings& settings);
+  EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+          const Settings& settings);
 
   /// Pixels worth trying for the next tile: what earlier tiles needed a pixel, and some reserve.
   std::uint32_t suggested_pixels() const;
@@ -45,13 +52,13 @@ class EyePass {
   void tighten(HitTile& tile);
 
   gpu::Device& device_;
+  const EyeKernels& kernels_;
   std::uint32_t samples_;
   Filter filter_;
   std::uint64_t capacity_;        ///< hit points of a tile
   std::uint64_t queue_capacity_;  ///< eye paths of a tile, and paths in a queue
   double hits_per_pixel_;         ///< expected of the next tile
   gpu::BindingTable table_;
-  gpu::Kernel start_, continue_, scatter_, order_;
   ExclusiveScan scan_;
   gpu::Buffer queue_[2], group_count_, keys_, arrivals_;
   Counters counters_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eye_pass.hpp"
 #include "failure.hpp"
 #include "region.hpp"
 #include "shared/camera.h"
@@ -36,6 +35,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       scene_(scene),
       device_(device),
       log_(log),
+      eye_kernels_(std::async(std::launch::async, [&device] { return EyeKernels(device); })),
       buffers_(scene, settings, device, threads),
       table_(scene_table(buffers_)),
       pipelines_begin_(clock_seconds()),
@@ -72,7 +72,8 @@ bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
   const gpu::Region region(device_, "eye");
-  EyePass eye(device_, table_, settings_);
+  const EyeKernels kernels = eye_kernels_.get();
+  EyePass eye(device_, kernels, table_, settings_);
   const std::uint32_t all_pixels = settings_.width * settings_.height;
   std::uint32_t pixels = 0;
   for (std::uint32_t first = 0; first < all_pixels; first += pixels) {

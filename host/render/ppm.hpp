@@ -1,11 +1,13 @@
 // Progressive photon mapping [HOJ08]: the loop over passes.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "estimator.hpp"
+#include "eye_pass.hpp"
 #include "integrator.hpp"
 #include "pass_batch.hpp"
 #include "pass_capacities.hpp"
@@ -68,6 +70,7 @@ class PpmIntegrator final : public Integrator {
   const scene::Scene& scene_;
   gpu::Device& device_;
   Log& log_;
+  std::future<EyeKernels> eye_kernels_;  // made while the tree is built and the others are made
   SceneBuffers buffers_;
   gpu::BindingTable table_;
   double pipelines_begin_;  // reading of the clock, between the members that are timed

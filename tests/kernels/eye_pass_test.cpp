@@ -31,7 +31,8 @@ class EyeOrder : public DeviceTest {
     const render::SceneBuffers buffers(room_, settings, device(), 1);
     gpu::BindingTable table;
     buffers.bind(table);
-    render::EyePass pass(device(), table, settings);
+    const render::EyeKernels kernels(device());
+    render::EyePass pass(device(), kernels, table, settings);
     const std::uint32_t pixels = settings.width * settings.height;
     Hits hits;
     for (std::uint32_t part = 0; part < parts; ++part) {
@@ -84,7 +85,8 @@ TEST_F(EyeOrder, EveryHitPointHasOnePlace) {
   const render::SceneBuffers buffers(room_, settings, device(), 1);
   gpu::BindingTable table;
   buffers.bind(table);
-  render::EyePass pass(device(), table, settings);
+  const render::EyeKernels kernels(device());
+  render::EyePass pass(device(), kernels, table, settings);
   ASSERT_EQ(pass.trace(
                 0, 1200, [] { return false; }, tile),
             render::EyePass::Result::done);
