@@ -128,9 +128,12 @@ void main() {
   uint number = push.emit_first + path.path - own_pass * push.paths;
   RandomStream random = RandomStream(scene.seed, push.stream, push.pass + own_pass, number);
   if (push.generate != 0u) path = emit(item, random);
-  bool alive = true;
+  bool alive;
   uint bounces = paths > PPM_FEW_PATHS ? PPM_BOUNCES_OF_MANY : PPM_BOUNCES_OF_FEW;
-  for (uint bounce = 0u; bounce < bounces && alive; ++bounce) alive = advance(path, random);
+  do {  // tested at its end: lavapipe runs a loop's body once more, for nobody, where the test is at its top
+    alive = advance(path, random);
+    --bounces;
+  } while (alive && bounces > 0u);
   if (alive) {
     uint slot = atomicAdd(batch.alive[push.round + 1u], 1u);
     if (slot < push.path_capacity) paths_out[slot] = path;
