@@ -10,6 +10,7 @@ DeviceProfile cpu_profile() {
   DeviceProfile profile;
   profile.alternate_halves = true;
   profile.first_guess_items = 1u << 14;
+  profile.serial_scan_chunks = 1u << 20;
   profile.passes_in_flight = 1;
   profile.paths = 1u << 18;
   profile.photons = 1u << 20;

@@ -18,6 +18,8 @@ struct DeviceProfile {
   bool alternate_halves = false;
   /// Items of the first dispatch of a kernel of which nothing is known.
   std::uint64_t first_guess_items = 1u << 18;
+  /// Chunks of a scan whose sums one invocation adds up, at most.
+  std::uint32_t serial_scan_chunks = 256;
   /// Photon passes recorded at a time, at most.
   std::uint32_t passes_in_flight = 16;
   /// Paths whose state is kept at a time, photons that are kept at a time, entries of the photon

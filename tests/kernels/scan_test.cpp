@@ -5,6 +5,7 @@
 
 #include "device_fixture.hpp"
 #include "exclusive_scan.hpp"
+#include "implementation.hpp"
 #include "randoms.hpp"
 #include "shared/layout.h"
 
@@ -43,6 +44,22 @@ TEST_F(Scan, AwkwardSizes) {
     for (std::uint32_t& count : counts) count = random.below(400);  // sums below 2^32
     check(counts);
   }
+}
+
+// As on devices whose profile lets no invocation add up many chunks.
+TEST_F(Scan, InLevels) {
+  gpu::DeviceProfile& profile = device().implementation().profile;
+  const gpu::DeviceProfile usual = profile;
+  profile.serial_scan_chunks = 2;
+  Randoms random(2);
+  for (const std::uint32_t size :
+       {1u, 2u * PPM_SCAN_CHUNK, 2u * PPM_SCAN_CHUNK + 1u, 1234567u,
+        1u * PPM_SCAN_CHUNK * PPM_SCAN_CHUNK, 3u * PPM_SCAN_CHUNK * PPM_SCAN_CHUNK + 1u}) {
+    std::vector<std::uint32_t> counts(size);
+    for (std::uint32_t& count : counts) count = random.below(400);
+    check(counts);
+  }
+  profile = usual;
 }
 
 TEST_F(Scan, ZerosAndOneLargeCount) {
