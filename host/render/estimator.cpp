@@ -5,6 +5,7 @@
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 #include "shared/layout.h"
+#include "shared/ppm.h"
 
 namespace ppm::render {
 namespace {
@@ -157,9 +158,18 @@ void Estimator::measure_radii(std::span<const HitTile> tiles) {
   update(tiles, 0.5f);
 }
 
-void Estimator::prepare_searches(std::span<HitTile> tiles) {
-  measure_radii(tiles);
+std::vector<float> Estimator::prepare_searches(std::span<HitTile> tiles) {
+  std::vector<float> radii2;
+  radius_histogram_.fill(0);
+  for (const HitTile& tile : tiles) {
+    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
+      if (statistic.w <= 0.0f) continue;  // light seen
+      radii2.push_back(statistic.w);
+      ++radius_histogram_[shared::radius_bin(statistic.w)];
+    }
+  }
   for (HitTile& tile : tiles) order_.sort(tile, kOrderCell * cell_size());
+  return radii2;
 }
 
 }  // namespace ppm::render

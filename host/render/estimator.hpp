@@ -61,8 +61,8 @@ class Estimator {
   void set_radii(const HitTile& tile, float fixed_radius, float footprints);
 
   /// Once radii are known and before the first `gather`: reads their histogram, and puts the tiles'
-  /// hit points in search order.
-  void prepare_searches(std::span<HitTile> tiles);
+  /// hit points in search order. Returns R^2 of all of them, working units, in any order.
+  std::vector<float> prepare_searches(std::span<HitTile> tiles);
   /// Reads the histogram of radii without changing anything else.
   void measure_radii(std::span<const HitTile> tiles);
 

@@ -111,8 +111,7 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
   const float footprints = settings_.radius_mode == RadiusMode::footprint ? kFootprints : 0.0f;
   for (const HitTile& tile : tiles_) estimator_.set_radii(tile, fixed, footprints);
   if (automatic && !run_pilot(interrupted)) return false;
-  estimator_.prepare_searches(tiles_);
-  record_initial_radii();
+  record_initial_radii(estimator_.prepare_searches(tiles_));
   statistics_.seconds["pilot"] = clock_seconds() - start;
   return true;
 }
@@ -182,13 +181,7 @@ Picture PpmIntegrator::resolve() {
   return picture;
 }
 
-void PpmIntegrator::record_initial_radii() {
-  std::vector<float> radii2;
-  for (const HitTile& tile : tiles_) {
-    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
-      if (statistic.w > 0.0f) radii2.push_back(statistic.w);
-    }
-  }
+void PpmIntegrator::record_initial_radii(std::vector<float> radii2) {
   if (radii2.empty()) return;
   const auto to_world = [&](float radius2) {
     return std::sqrt(static_cast<double>(radius2)) / scene_.frame.scale;

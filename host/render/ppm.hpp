@@ -54,7 +54,8 @@ class PpmIntegrator final : public Integrator {
                                              const std::function<bool()>& interrupted);
   /// One pass under the host's eyes, in chunks that fit and with searches of any length.
   bool advance_in_steps(float cell, const std::function<bool()>& interrupted);
-  void record_initial_radii();
+  /// From R^2 of all hit points, in the working frame.
+  void record_initial_radii(std::vector<float> radii2);
 
   /// What a pass or tile adds to the statistics once it is complete.
   struct Tally {
