@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "integrator.hpp"
+#include "measure.hpp"
 #include "timing.hpp"
 
 namespace ppm::benchmark {
@@ -13,12 +14,6 @@ bool never() {
 }
 
 }  // namespace
-
-int passes_until_half(double alpha) {
-  int passes = 0;
-  for (double area = 1.0; area > 0.25; ++passes) area *= (passes + alpha) / (passes + 1.0);
-  return passes;
-}
 
 PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigned threads,
                          int repeats, const std::function<double()>& unit) {
@@ -49,7 +44,8 @@ PassTimes measure_passes(gpu::Device& device, const scene::Scene& scene, unsigne
       if (time.seconds > earlier) times.kernels[kernel] += (time.seconds - earlier) / repeats;
     }
   }
-  for (int pass = 2; pass < passes_until_half(settings.alpha); ++pass) integrator->advance(never);
+  const std::uint64_t half = bench::passes_until_half(settings.alpha);
+  for (std::uint64_t pass = 2; pass < half; ++pass) integrator->advance(never);
   for (int i = 0; i < repeats; ++i) {
     beside_unit(times.unit_at_shrunk,
                 [&] { times.shrunk.push_back(seconds_of([&] { integrator->advance(never); })); });

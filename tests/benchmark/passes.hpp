@@ -11,10 +11,6 @@
 
 namespace ppm::benchmark {
 
-/// Passes until all radii have halved where every pass lands as many photons a unit area: after i
-/// passes R^2 has been multiplied by (j + alpha) / (j + 1) for every j < i, by Eqs. 7 and 9.
-int passes_until_half(double alpha);
-
 /// Seconds, one entry a repeat.
 struct PassTimes {
   std::vector<double> prepare;  ///< before the first pass, all told
