@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/invocation.glsl"
+#include "lib/scene_kinds.glsl"
 
 #include "lib/counters.glsl"
 #include "lib/lights.glsl"

@@ -23,9 +23,7 @@ const uint kBatch = 64u;
 // take 65535 turns altogether on some drivers.
 const uint kChunkBudget = 2048u;
 
-uint width() { return gl_SubgroupSize; }
-uint width_bits() { return uint(findMSB(gl_SubgroupSize)); }
-uint lane() { return gl_SubgroupInvocationID; }
+uint subgroup_bits() { return uint(findMSB(kSubgroupSize)); }
 
 // A stretch of photons to look at, at most one an invocation, in one row of cells.
 struct Chunk {
@@ -55,7 +53,7 @@ uint photons_within(Chunk chunk, vec3 centre, float radius2) {
   }
   if (!valid) position = vec3(1e18);
   uint found = 0u;
-  for (uint i = 0u; i < width(); ++i) {
+  for (uint i = 0u; i < kSubgroupSize; ++i) {
     found |= squared_distance(subgroupShuffle(position, i), centre) <= radius2 ? 1u << i : 0u;
   }
   return found;
@@ -71,14 +69,15 @@ void main() {
   float radius2 = fetch_radius2(hit);
   CellBox own = cells_within(push.grid, receiver.position, radius2);
   Sums sums = no_sums();
-  uint chunks_a_batch = kBatch >> width_bits();
+  uint chunks_a_batch = kBatch >> subgroup_bits();
   uint budget = kChunkBudget;
 
-  // Those near the first that waits search with it; then the next, and those near that one.
-  for (uint leader = subgroup_min(waiting ? lane() : width()); leader < width();
-       leader = subgroup_min(waiting ? lane() : width())) {
-    uvec3 low = subgroupShuffle(own.low, leader);
-    uvec3 high = subgroupShuffle(own.high, leader);
+  // Those near the first that waits search with it; then the next, and those near that one. All loops are tested at
+  // their ends: lavapipe runs the body of another kind once more, with no lane in it.
+  uint leader = subgroup_min(waiting ? lane() : kSubgroupSize);
+  do {
+    uvec3 low = subgroupShuffle(own.low, min(leader, kSubgroupSize - 1u));
+    uvec3 high = subgroupShuffle(own.high, min(leader, kSubgroupSize - 1u));
     uvec3 margin = max(high - low, uvec3(2u));
     bool joins = waiting && all(greaterThanEqual(own.low + margin, low)) && all(lessThanEqual(own.high, high + margin));
     waiting = waiting && !joins;
@@ -86,56 +85,60 @@ void main() {
     CellBox box = CellBox(subgroup_min(joins ? own.low : low), subgroup_max(joins ? own.high : high));
 
     uint rows = row_count(box);
-    for (uint first_row = 0u; first_row < rows && budget > 0u; first_row += width()) {
-      CellRow row = cell_row(push.grid, box, min(first_row + lane(), rows - 1u));
-      uint own_chunks = first_row + lane() < rows ? (row.end - row.begin + width() - 1u) >> width_bits() : 0u;
+    uint first_row = 0u;
+    do {
+      CellRow row = cell_row_of_few(push.grid, box, min(first_row + lane(), rows - 1u));
+      uint own_chunks = first_row + lane() < rows ? (row.end - row.begin + kSubgroupSize - 1u) >> subgroup_bits() : 0u;
       uint chunks_to_here = subgroup_inclusive_sum(own_chunks);
-      uint total = subgroupShuffle(chunks_to_here, width() - 1u);
+      uint total = subgroupShuffle(chunks_to_here, kSubgroupSize - 1u);
       bool affordable = total < budget;
       budget = affordable ? budget - total - 1u : 0u;
-      if (!affordable) total = 0u;
+      total = affordable ? total : 0u;
       // Chunk c of this row begins here, if c counts from the first row's first.
-      Chunk of_row = Chunk(row.begin - (chunks_to_here - own_chunks) * width(), row.end, row.y, row.z);
+      Chunk of_row = Chunk(row.begin - (chunks_to_here - own_chunks) * kSubgroupSize, row.end, row.y, row.z);
 
-      for (uint first_chunk = 0u; first_chunk < total; first_chunk += chunks_a_batch) {
+      uint first_chunk = 0u;
+      do {
         // Each invocation finds out about one chunk of the batch.
         uint number = first_chunk + lane();
         uint source = 0u;
-        for (uint i = 0u; i < width(); ++i) source += subgroupShuffle(chunks_to_here, i) <= number ? 1u : 0u;
-        Chunk batch = chunk_of(of_row, min(source, width() - 1u));
-        batch.begin += number * width();
+        for (uint i = 0u; i < kSubgroupSize; ++i) source += subgroupShuffle(chunks_to_here, i) <= number ? 1u : 0u;
+        Chunk batch = chunk_of(of_row, min(source, kSubgroupSize - 1u));
+        batch.begin += number * kSubgroupSize;
+        if (number >= total) batch.end = 0u;
 
         uvec2 found = uvec2(0u);
         uint count = min(chunks_a_batch, total - first_chunk);
-        for (uint i = 0u; i < count; ++i) {
-          uint bits = photons_within(chunk_of(batch, i), receiver.position, reach2);
-          uint place = i * width();
+        uint chunk = 0u;
+        do {
+          uint bits = photons_within(chunk_of(batch, chunk), receiver.position, reach2);
+          uint place = chunk * kSubgroupSize;
           found.x |= place < 32u ? bits << place : 0u;
           found.y |= place >= 32u ? bits << (place - 32u) : 0u;
-        }
+        } while (++chunk < count);
+
         uint most = subgroup_max(bitCount(found.x) + bitCount(found.y));
-        for (uint i = 0u; i < most; ++i) {
+        do {
           bool low_word = found.x != 0u;
           uint word = low_word ? found.x : found.y;
           uint bit = uint(findLSB(word)) & 31u;
           uint place = bit + (low_word ? 0u : 32u);
-          uint photon = subgroupShuffle(batch.begin, place >> width_bits()) + (place & (width() - 1u));
-          add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, photon), PPM_FETCH(sorted_flux, photon)),
-                     word != 0u, sums);
+          uint photon = subgroupShuffle(batch.begin, place >> subgroup_bits()) + (place & (kSubgroupSize - 1u));
+          add_photon(receiver, PPM_FETCH(sorted_flux, word != 0u ? photon : 0u), word != 0u, sums);
           word &= word - 1u;
-          if (low_word) {
-            found.x = word;
-          } else {
-            found.y = word;
-          }
-        }
-      }
-    }
+          found = low_word ? uvec2(word, found.y) : uvec2(0u, word);
+        } while (int(--most) > 0);
+        first_chunk += chunks_a_batch;
+      } while (first_chunk < total);
+      first_row += kSubgroupSize;
+    } while (first_row < rows && budget > 0u);
+
     if (budget == 0u && joins) {
       sums = no_sums();
       uint slot = atomicAdd(counters[PPM_COUNTER_CONTINUE], 1u);
       if (slot < push.cursor_capacity) continue_out[slot] = GatherCursor(hit, 0u, 0u);
     }
-  }
+    leader = subgroup_min(waiting ? lane() : kSubgroupSize);
+  } while (leader < kSubgroupSize);
   add_to_hit_point(hit, sums);
 }

@@ -53,7 +53,7 @@ void main() {
       while (found != 0u) {
         uint i = first + uint(findLSB(found));
         found &= found - 1u;
-        add_photon(receiver, unpack_photon(PPM_FETCH(sorted_position, i), PPM_FETCH(sorted_flux, i)), true, sums);
+        add_photon(receiver, PPM_FETCH(sorted_flux, i), true, sums);
       }
     }
     budget -= end - begin;

@@ -58,7 +58,8 @@ Found search(uint hit) {
       while (nearby != 0u) {
         uint j = first + uint(findLSB(nearby));
         nearby &= nearby - 1u;
-        bool counts = accepts_packed_photon(normal, PPM_FETCH(sorted_position, j).w, PPM_FETCH(sorted_flux, j).w);
+        uvec4 flux = PPM_FETCH(sorted_flux, j);
+        bool counts = accepts_packed_photon(normal, flux.x, flux.y);
         found.count += counts ? 1u : 0u;
       }
     }

@@ -39,6 +39,8 @@ void Kernel::Implementation::add_profile(
     if (reflection.constants.contains(id)) constants.emplace_back(id, value);
   };
   add(PPM_SPEC_ALTERNATE_HALVES, device.profile.alternate_halves ? 1 : 0);
+  add(PPM_SPEC_SUBGROUP_SIZE,
+      std::min(device.physical.subgroup_size, device.profile.workgroup_size));
   if (!reflection.constants.contains(PPM_SPEC_WORKGROUP_SIZE)) return;
   reflection.workgroup_size = device.profile.workgroup_size;
   add(PPM_SPEC_WORKGROUP_SIZE, reflection.workgroup_size);

@@ -86,14 +86,23 @@ void choose_queue(PhysicalDevice& device) {
 void describe_1_2(PhysicalDevice& device) {
   VkPhysicalDeviceMaintenance3Properties maintenance{};
   maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  subgroup.pNext = &maintenance;
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-  driver.pNext = &maintenance;
+  driver.pNext = &subgroup;
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &driver;
   vkGetPhysicalDeviceProperties2(device.handle, &properties);
   device.max_allocation = maintenance.maxMemoryAllocationSize;
+  device.subgroup_size = subgroup.subgroupSize;
+  if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
+      !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT)) {
+    device.description.obstacles.push_back(
+        "no shuffles within subgroups (VK_SUBGROUP_FEATURE_SHUFFLE_BIT)");
+  }
   device.description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
 
   VkPhysicalDeviceVulkan12Features features12{};

@@ -17,6 +17,7 @@ struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkDeviceSize max_allocation = 0;
+  std::uint32_t subgroup_size = 0;
   std::uint32_t queue_family = 0;
   std::uint32_t timestamp_bits = 0;
   DeviceDescription description;

@@ -42,9 +42,9 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
                                  device.max_storage_bytes() / sizeof(shared::HitPoint));
 }
 
-EyeKernels::EyeKernels(gpu::Device& device)
-    : start(device, shaders::eye, {{kGenerate, 1}}),
-      go_on(device, shaders::eye, {{kGenerate, 0}}),
+EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits)
+    : start(device, shaders::eye, {{kGenerate, 1}, {PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss}}),
+      go_on(device, shaders::eye, {{kGenerate, 0}, {PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss}}),
       scatter(device, shaders::eye_scatter),
       order(device, shaders::eye_order) {}
 

@@ -9,15 +9,16 @@
 #include "exclusive_scan.hpp"
 #include "hit_tile.hpp"
 #include "integrator.hpp"
+#include "scene_traits.hpp"
 
 namespace ppm::render {
 
 /// Hit points a tile holds at most: as many as asked for, or as the device's largest buffer takes.
 std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device);
 
-/// What takes long to make and depends on the device alone.
+/// What takes long to make and depends on little.
 struct EyeKernels {
-  explicit EyeKernels(gpu::Device& device);
+  EyeKernels(gpu::Device& device, const SceneTraits& traits);
   gpu::Kernel start, go_on, scatter, order;
 };
 

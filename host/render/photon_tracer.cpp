@@ -27,9 +27,10 @@ std::uint32_t even(std::uint32_t rounds) {
 }  // namespace
 
 PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene,
-                           std::uint64_t photon_capacity, std::uint64_t path_capacity)
+                           const SceneTraits& traits, std::uint64_t photon_capacity,
+                           std::uint64_t path_capacity)
     : device_(device),
-      kernel_(device, shaders::photon),
+      kernel_(device, shaders::photon, {{PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss}}),
       table_(scene),
       photon_capacity_(photon_capacity),
       path_capacity_(path_capacity),

@@ -8,6 +8,7 @@
 #include "counters.hpp"
 #include "device_batch.hpp"
 #include "kernel.hpp"
+#include "scene_traits.hpp"
 
 namespace ppm::render {
 
@@ -22,8 +23,8 @@ struct PathRange {
 class PhotonTracer {
  public:
   /// Holds up to `photon_capacity` photons and traces up to `path_capacity` paths at a time.
-  PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene, std::uint64_t photon_capacity,
-               std::uint64_t path_capacity);
+  PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene, const SceneTraits& traits,
+               std::uint64_t photon_capacity, std::uint64_t path_capacity);
 
   enum class Result { done, overflow, interrupted };
 

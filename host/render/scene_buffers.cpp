@@ -1,13 +1,12 @@
 #include "scene_buffers.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "failure.hpp"
 #include "light_table.hpp"
 #include "shared/bindings.h"
-#include "shared/bsdf.h"
+#include "shared/geometry.h"
 
 namespace ppm::render {
 namespace {
@@ -88,13 +87,6 @@ gpu::Buffer texel_buffer(gpu::Device& device, const char* name,
   return gpu::make_buffer(device, name, std::span<const Record>(records), gpu::Usage::texels);
 }
 
-// Without regard to textures and to how opaque the material is: at most one lobe too many.
-bool may_have_rough_gloss(const shared::MaterialRecord& material) {
-  return material.roughness >= PPM_DELTA_ROUGHNESS &&
-         (material.metallic > 0.0f || material.specular_f90 > 0.0f ||
-          shared::max_component(material.specular_f0) > 0.0f);
-}
-
 }  // namespace
 
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
@@ -134,8 +126,6 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   std::vector<shared::MaterialRecord> materials;
   for (const scene::Material& material : scene.materials)
     materials.push_back(material_record(material));
-  traits_ = {scene.bounds_min, scene.bounds_max,
-             std::ranges::any_of(materials, may_have_rough_gloss)};
 
   std::vector<shared::TextureRecord> textures;
   std::vector<glm::u16vec4> texels;

@@ -6,7 +6,6 @@
 #include "bvh.hpp"
 #include "integrator.hpp"
 #include "kernel.hpp"
-#include "scene_traits.hpp"
 #include "shared/layout.h"
 
 namespace ppm::render {
@@ -21,14 +20,12 @@ class SceneBuffers {
   void bind(gpu::BindingTable& table) const;
 
   const shared::SceneConstants& constants() const { return constants_; }
-  const SceneTraits& traits() const { return traits_; }
   double total_power() const { return total_power_; }  ///< W * frame.scale^2, mean over channels
   std::uint32_t light_count() const { return constants_.light_count; }
   double bvh_seconds() const { return bvh_seconds_; }
 
  private:
   shared::SceneConstants constants_{};
-  SceneTraits traits_;
   double total_power_ = 0.0;
   double bvh_seconds_ = 0.0;
   gpu::Buffer constants_buffer_, nodes_, positions_, shading_, materials_, textures_, texels_,

@@ -17,7 +17,7 @@ struct Receiver {
   vec3 position;
   vec3 geometric_normal;
   vec3 shading_normal, tangent, bitangent;
-  uint events;           // scattering events of its eye path
+  int most_events;       // of a photon that counts, scattering events of the eye path taken off
   BsdfTowards bsdf;
 };
 
@@ -32,7 +32,8 @@ Receiver fetch_receiver(uint hit) {
   vec3 outgoing = unpack_direction(plane1.y);
   vec3 wo = vec3(dot(outgoing, receiver.tangent), dot(outgoing, receiver.bitangent),
                  dot(outgoing, receiver.shading_normal));
-  receiver.events = (plane1.w >> 8u) & 0xffu;
+  uint events = (plane1.w >> 8u) & 0xffu;
+  receiver.most_events = scene.max_depth == 0u ? 0x7fffffff : int(scene.max_depth) - int(events) - 1;
   receiver.bsdf = bsdf_towards(unpack_bsdf(PPM_FETCH(hits_3, hit), PPM_FETCH(hits_2, hit).w), wo);
   return receiver;
 }
@@ -50,15 +51,18 @@ struct Sums {
 Sums no_sums() { return Sums(0u, Fixed64(0u, 0u), Fixed64(0u, 0u), Fixed64(0u, 0u), 0u, 0u, 0u); }
 
 // Adds a photon of the disc, if `found` and if it counts there. Without branches: lavapipe runs the code of every
-// branch, with lanes masked off.
-void add_photon(Receiver receiver, Photon photon, bool found, inout Sums sums) {
+// branch, with lanes masked off. packed: the photon's plane SORTED_FLUX.
+void add_photon(Receiver receiver, uvec4 packed, bool found, inout Sums sums) {
+  Photon photon = unpack_photon_flux(packed);
   vec3 wi = vec3(dot(photon.incident, receiver.tangent), dot(photon.incident, receiver.bitangent),
                  dot(photon.incident, receiver.shading_normal));
-  bool counts = found && accepts_photon(receiver.geometric_normal, photon.incident, photon.normal) &&
-                (scene.max_depth == 0u || photon.events + 1u + receiver.events <= scene.max_depth);
+  bool accepted = accepts_packed_photon(receiver.geometric_normal, packed.x, packed.y);
+  bool short_enough = int(photon.events) <= receiver.most_events;
+  bool counts = found && accepted && short_enough;
   sums.count += counts ? 1u : 0u;
   float factor = merge_normal_factor(wi.z, dot(photon.incident, photon.normal));
-  sums.clamped += counts && factor > PPM_MAX_NORMAL_FACTOR ? 1u : 0u;
+  bool clamped = counts && factor > PPM_MAX_NORMAL_FACTOR;
+  sums.clamped += clamped ? 1u : 0u;
   factor = counts && wi.z > 0.0 ? min(factor, PPM_MAX_NORMAL_FACTOR) : 0.0;
   precise vec3 term = bsdf_eval_towards(receiver.bsdf, wi) * (photon.flux * factor);
   bool fits = term.x + term.y + term.z < PPM_FIXED_LIMIT;  // false for NaN, too

@@ -74,8 +74,9 @@
 // (host/gpu/device_profile.hpp). Kernels' own ones are below.
 #define PPM_SPEC_WORKGROUP_SIZE 100    // invocations of a workgroup
 #define PPM_SPEC_ALTERNATE_HALVES 101  // bool: see shaders/lib/invocation.glsl
+#define PPM_SPEC_SUBGROUP_SIZE 102     // see shaders/lib/subgroup.glsl
 
 // Those that the scene decides (shaders/lib/scene_kinds.glsl).
-#define PPM_SPEC_ROUGH_GLOSS 0  // bool: some material has a rough glossy lobe
+#define PPM_SPEC_ROUGH_GLOSS 110  // bool: some material has a rough glossy lobe
 
 #endif  // PPM_SHARED_BINDINGS_H

@@ -1,5 +1,6 @@
-// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes; a
-// search that rejects a photon for its distance reads only the first.
+// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes: where
+// it landed, which is all that a search reads of photons it rejects, and all that a hit point needs to
+// know of those it accepts.
 #ifndef PPM_SHARED_PHOTON_H
 #define PPM_SHARED_PHOTON_H
 
@@ -17,26 +18,38 @@ struct Photon {
 
 PPM_FN uvec4 pack_photon_position(Photon photon) {
   return uvec4(floatBitsToUint(photon.position.x), floatBitsToUint(photon.position.y),
-               floatBitsToUint(photon.position.z), pack_direction(photon.incident));
+               floatBitsToUint(photon.position.z), 0u);
 }
 
-// The event count sits in the low byte of the third channel's mantissa, which is rounded to 16 bits
-// for it: an error up to 2^-16 of that channel, against 4 bytes more a photon.
+// Both directions; the flux as three 16-bit mantissas under one exponent, that of the largest channel:
+// each is rounded by at most 2^-17 of the largest. Channels from 2^-111 on are kept.
 PPM_FN uvec4 pack_photon_flux(Photon photon) {
-  uint blue = (floatBitsToUint(photon.flux.z) + 0x80u) & 0xffffff00u;
-  return uvec4(floatBitsToUint(photon.flux.x), floatBitsToUint(photon.flux.y),
-               blue | min(photon.events, 255u), pack_direction(photon.normal));
+  uint exponent = max(floatBitsToUint(max_component(photon.flux)) >> 23u, 16u);
+  vec3 mantissa = photon.flux * uintBitsToFloat((269u - exponent) << 23u);  // below 2^16
+  uint red = uint(min(mantissa.x + 0.5f, 65535.0f));
+  uint green = uint(min(mantissa.y + 0.5f, 65535.0f));
+  uint blue = uint(min(mantissa.z + 0.5f, 65535.0f));
+  return uvec4(pack_direction(photon.incident), pack_direction(photon.normal), red | (green << 16u),
+               blue | ((exponent - 15u) << 16u) | (min(photon.events, 255u) << 24u));
+}
+
+// All but the position.
+PPM_FN Photon unpack_photon_flux(uvec4 flux) {
+  Photon photon;
+  photon.position = vec3(0.0f);
+  photon.incident = unpack_direction(flux.x);
+  photon.normal = unpack_direction(flux.y);
+  float scale = uintBitsToFloat((flux.w << 7u) & 0x7f800000u);
+  photon.flux =
+      vec3(float(flux.z & 0xffffu), float(flux.z >> 16u), float(flux.w & 0xffffu)) * scale;
+  photon.events = flux.w >> 24u;
+  return photon;
 }
 
 PPM_FN Photon unpack_photon(uvec4 position, uvec4 flux) {
-  Photon photon;
+  Photon photon = unpack_photon_flux(flux);
   photon.position =
       vec3(uintBitsToFloat(position.x), uintBitsToFloat(position.y), uintBitsToFloat(position.z));
-  photon.incident = unpack_direction(position.w);
-  photon.flux =
-      vec3(uintBitsToFloat(flux.x), uintBitsToFloat(flux.y), uintBitsToFloat(flux.z & 0xffffff00u));
-  photon.normal = unpack_direction(flux.w);
-  photon.events = flux.z & 0xffu;
   return photon;
 }
 

@@ -31,7 +31,7 @@ class EyeOrder : public DeviceTest {
     const render::SceneBuffers buffers(room_, settings, device(), 1);
     gpu::BindingTable table;
     buffers.bind(table);
-    const render::EyeKernels kernels(device());
+    const render::EyeKernels kernels(device(), {});
     render::EyePass pass(device(), kernels, table, settings);
     const std::uint32_t pixels = settings.width * settings.height;
     Hits hits;
@@ -85,7 +85,7 @@ TEST_F(EyeOrder, EveryHitPointHasOnePlace) {
   const render::SceneBuffers buffers(room_, settings, device(), 1);
   gpu::BindingTable table;
   buffers.bind(table);
-  const render::EyeKernels kernels(device());
+  const render::EyeKernels kernels(device(), {});
   render::EyePass pass(device(), kernels, table, settings);
   ASSERT_EQ(pass.trace(
                 0, 1200, [] { return false; }, tile),

@@ -23,10 +23,10 @@ using glm::vec3;
 using shared::GatherSum;
 using shared::Photon;
 
-// The blue channel of a stored photon keeps 16 bits of mantissa (shared/photon.h).
+// A stored photon keeps 16 bits under one exponent (shared/photon.h).
 vec3 random_flux(Randoms& random) {
-  const float blue = static_cast<float>(random.below(65536)) * 0x1p-16f;
-  return {random.in(0.0f, 1.0f), random.in(0.0f, 1.0f), blue};
+  const auto channel = [&] { return static_cast<float>(random.below(65536)) * 0x1p-16f; };
+  return {channel(), channel(), channel()};
 }
 
 struct Sums {
