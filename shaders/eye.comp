@@ -203,12 +203,12 @@ void main() {
     counts[item] = records;
   } else {
     EyePath path = eye_in[item];
-    bool alive = true;
     uint bounce = 0u;
-    while (alive) {
+    bool alive;
+    do {  // lavapipe runs the body of a loop that is tested at its head once more, with no lane in it
       ++bounce;
       alive = advance(path, bounce == push.bounces, records);
-    }
+    } while (alive);
     if (push.bounces > 1u) atomicAdd(counters[PPM_COUNTER_EYE_RAYS], bounce);
   }
 }

@@ -16,10 +16,13 @@ layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { G
 // take as long as the one with most to do: apart, neither waits for the other.
 uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
   uint found = 0u;
-  for (uint i = first; i < last; ++i) {
-    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
-    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
-  }
+  uint i = first;
+  do {  // tested at its end, as all loops here: lavapipe runs the body of another once more, with no lane in it
+    bool valid = i < last;
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? i : 0u).xyz);
+    bool found_it = valid && within(push.grid, row, position, photon_position, radius2);
+    found |= found_it ? 1u << (i - first) : 0u;
+  } while (++i < last);
   return found;
 }
 
@@ -48,14 +51,16 @@ void main() {
     CellRow row = cell_row(push.grid, box, row_index);
     uint begin = row.begin + offset;
     uint end = min(row.end, begin + budget);
-    for (uint first = begin; first < end; first += 32u) {
+    uint first = begin;
+    do {
       uint found = photons_within(row, receiver.position, radius2, first, min(first + 32u, end));
-      while (found != 0u) {
-        uint i = first + uint(findLSB(found));
+      do {
+        bool valid = found != 0u;
+        add_photon(receiver, PPM_FETCH(sorted_flux, valid ? first + uint(findLSB(found)) : 0u), valid, sums);
         found &= found - 1u;
-        add_photon(receiver, PPM_FETCH(sorted_flux, i), true, sums);
-      }
-    }
+      } while (found != 0u);
+      first += 32u;
+    } while (first < end);
     budget -= end - begin;
     if (end < row.end) {
       leave_cursor(cursor.hit, row_index, end - row.begin);

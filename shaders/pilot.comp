@@ -33,10 +33,13 @@ struct Found {
 // Which of up to 32 photons lie within the radius, a bit each.
 uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
   uint found = 0u;
-  for (uint i = first; i < last; ++i) {
-    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, i).xyz);
-    if (within(push.grid, row, position, photon_position, radius2)) found |= 1u << (i - first);
-  }
+  uint i = first;
+  do {  // tested at its end, as all loops here: lavapipe runs the body of another once more, with no lane in it
+    bool valid = i < last;
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? i : 0u).xyz);
+    bool found_it = valid && within(push.grid, row, position, photon_position, radius2);
+    found |= found_it ? 1u << (i - first) : 0u;
+  } while (++i < last);
   return found;
 }
 
@@ -49,21 +52,24 @@ Found search(uint hit) {
   CellBox box = cells_within(push.grid, position, radius2);
   Found found = Found(0u, 0u);
   uint rows = row_count(box);
-  for (uint i = 0u; i < rows && found.count < enough && found.candidates <= PPM_GATHER_SLICE; ++i) {
+  uint i = 0u;
+  do {
     CellRow row = cell_row(push.grid, box, i);
     found.candidates += row.end - row.begin;
     if (found.candidates > PPM_GATHER_SLICE) row.end = row.begin;
-    for (uint first = row.begin; first < row.end && found.count < enough; first += 32u) {
+    uint first = row.begin;
+    do {
       uint nearby = photons_within(row, position, radius2, first, min(first + 32u, row.end));
-      while (nearby != 0u) {
-        uint j = first + uint(findLSB(nearby));
+      do {
+        bool valid = nearby != 0u;
+        uvec4 flux = PPM_FETCH(sorted_flux, valid ? first + uint(findLSB(nearby)) : 0u);
         nearby &= nearby - 1u;
-        uvec4 flux = PPM_FETCH(sorted_flux, j);
-        bool counts = accepts_packed_photon(normal, flux.x, flux.y);
+        bool counts = valid && accepts_packed_photon(normal, flux.x, flux.y);
         found.count += counts ? 1u : 0u;
-      }
-    }
-  }
+      } while (nearby != 0u);
+      first += 32u;
+    } while (first < row.end && found.count < enough);
+  } while (++i < rows && found.count < enough && found.candidates <= PPM_GATHER_SLICE);
   return found;
 }
 

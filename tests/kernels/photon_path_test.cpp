@@ -28,7 +28,7 @@ class PhotonPaths : public DeviceTest {
     const render::SceneBuffers buffers(scene, small_settings(), device(), 2);
     gpu::BindingTable table;
     buffers.bind(table);
-    render::PhotonTracer tracer(device(), table, 1u << 16, 1u << 14);
+    render::PhotonTracer tracer(device(), table, {}, 1u << 16, 1u << 14);
     EXPECT_EQ(tracer.trace(PPM_STREAM_PHOTON, 0, 0, paths, [] { return false; }),
               render::PhotonTracer::Result::done);
     gpu::BindingTable photons;
