@@ -20,6 +20,10 @@ uint subgroup_max(uint x) {
   for (uint mask = kSubgroupSize / 2u; mask > 0u; mask /= 2u) x = max(x, subgroupShuffleXor(x, mask));
   return x;
 }
+uint subgroup_sum(uint x) {
+  for (uint mask = kSubgroupSize / 2u; mask > 0u; mask /= 2u) x += subgroupShuffleXor(x, mask);
+  return x;
+}
 uvec3 subgroup_min(uvec3 v) { return uvec3(subgroup_min(v.x), subgroup_min(v.y), subgroup_min(v.z)); }
 uvec3 subgroup_max(uvec3 v) { return uvec3(subgroup_max(v.x), subgroup_max(v.y), subgroup_max(v.z)); }
 
