@@ -19,9 +19,9 @@ layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { G
 
 // Photons looked at before those that were found are added: the more, the more evenly the adding is shared.
 const uint kBatch = 64u;
-// Chunks of photons, as many as the subgroup has invocations, that it looks at in all. Loops of one invocation may
-// take 65535 turns altogether on some drivers.
-const uint kChunkBudget = 2048u;
+// Chunks of photons, as many as the subgroup has invocations, and sets of rows that it looks at in all. Loops of one
+// invocation may take 65535 turns altogether on some drivers: here up to 4096 chunks, and 64 photons for 8 of them.
+const uint kChunkBudget = 4096u;
 
 uint subgroup_bits() { return uint(findMSB(kSubgroupSize)); }
 

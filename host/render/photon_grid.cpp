@@ -2,12 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "failure.hpp"
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 
 namespace ppm::render {
+namespace {
+
+// What a search in a disc of that radius costs in cells of that size, in photons looked at. First
+// discs hold about as many photons whatever their size, so that the square of cells around one that
+// lies in a plane holds some of them for each of its areas; and a row of cells costs about as much
+// as kRowCost photons, empty or not.
+double search_cost(double radius, double cell) {
+  constexpr double kPhotonsADisc = 20.0, kRowCost = 16.0, kPi = 3.14159265358979324;
+  const double side = 2.0 + cell / radius;  // of the square, in radii
+  const double rows = 2.0 * radius / cell + 1.5;
+  return kPhotonsADisc / kPi * side * side + kRowCost * rows * rows;
+}
+
+}  // namespace
 
 PhotonGrid::PhotonGrid(gpu::Device& device, glm::vec3 bounds_min, glm::vec3 bounds_max,
                        std::uint64_t photon_capacity, std::uint32_t hashed_entries,
@@ -80,16 +95,24 @@ void PhotonGrid::bind(gpu::BindingTable& table) const {
 }
 
 float cell_from_radii(std::span<const std::uint32_t> histogram) {
-  std::uint64_t total = 0;
-  for (const std::uint32_t count : histogram) total += count;
-  if (total == 0) return 0.0f;
-  std::uint64_t below = 0;
-  for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
-    below += histogram[bin];
-    // Bin b spans R^2 from 2^(b/2 - 64) on; its radius is taken at the upper end.
-    if (10 * below >= 9 * total) return std::exp2(0.25f * static_cast<float>(bin + 1) - 32.0f);
+  // Bin b spans R^2 from 2^(b/2 - 64) on; all of it counts as its geometric mean.
+  const auto radius = [](std::size_t bin) {
+    return std::exp2(0.25 * (static_cast<double>(bin) + 0.5) - 32.0);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  double best = 0.0;
+  for (std::size_t candidate = 0; candidate < histogram.size(); ++candidate) {
+    const double cell = radius(candidate);
+    double cost = 0.0;
+    for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
+      if (histogram[bin] > 0) cost += histogram[bin] * search_cost(radius(bin), cell);
+    }
+    if (cost > 0.0 && cost < least) {
+      least = cost;
+      best = cell;
+    }
   }
-  return 0.0f;
+  return static_cast<float>(best);
 }
 
 }  // namespace ppm::render

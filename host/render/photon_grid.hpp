@@ -57,9 +57,9 @@ class PhotonGrid {
   CellTable cells_{};   ///< of what was sorted last
 };
 
-/// Cell size for hit points whose radii have this histogram (PPM_RADIUS_BINS bins): about their
-/// 90th percentile, so that a few large discs do not make everyone else's cells too large. 0 when
-/// there are none.
+/// Cell size with which searches in discs whose radii have this histogram (PPM_RADIUS_BINS bins)
+/// cost least: small cells are many rows to large discs, large cells many photons to small ones. 0
+/// when there are none.
 float cell_from_radii(std::span<const std::uint32_t> histogram);
 
 }  // namespace ppm::render
