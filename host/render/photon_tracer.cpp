@@ -13,7 +13,7 @@ namespace ppm::render {
 namespace {
 
 // Before anything is known: rounds to record, the share of paths that survive each, photons a path.
-constexpr std::uint32_t kFirstRounds = 12;
+constexpr std::uint32_t kFirstRounds = 16;
 constexpr double kFirstSurvival = 0.7;
 constexpr double kFirstPhotons = 4.0;
 // Rounds recorded beyond the usual ones: they cost less than a look from the host.

@@ -203,7 +203,7 @@ struct PhotonPush {
 // A round follows paths for few bounces while many are alive, lest lanes idle beside longer ones;
 // for more when few are left, whose rounds would cost more than their rays.
 #define PPM_FEW_PATHS 4096u
-#define PPM_BOUNCES_OF_MANY 2u
+#define PPM_BOUNCES_OF_MANY 1u
 #define PPM_BOUNCES_OF_FEW 4u
 
 // ---- Photon grid
