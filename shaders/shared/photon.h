@@ -26,9 +26,9 @@ PPM_FN uvec4 pack_photon_position(Photon photon) {
 PPM_FN uvec4 pack_photon_flux(Photon photon) {
   uint exponent = max(floatBitsToUint(max_component(photon.flux)) >> 23u, 16u);
   vec3 mantissa = photon.flux * uintBitsToFloat((269u - exponent) << 23u);  // below 2^16
-  uint red = uint(min(mantissa.x + 0.5f, 65535.0f));
-  uint green = uint(min(mantissa.y + 0.5f, 65535.0f));
-  uint blue = uint(min(mantissa.z + 0.5f, 65535.0f));
+  uint red = uint(min(roundEven(mantissa.x), 65535.0f));
+  uint green = uint(min(roundEven(mantissa.y), 65535.0f));
+  uint blue = uint(min(roundEven(mantissa.z), 65535.0f));
   return uvec4(pack_direction(photon.incident), pack_direction(photon.normal), red | (green << 16u),
                blue | ((exponent - 15u) << 16u) | (min(photon.events, 255u) << 24u));
 }
