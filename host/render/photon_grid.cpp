@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "failure.hpp"
 #include "ppm_shaders.hpp"
@@ -16,7 +17,7 @@ namespace {
 // lies in a plane holds some of them for each of its areas; and a row of cells costs about as much
 // as kRowCost photons, empty or not.
 double search_cost(double radius, double cell) {
-  constexpr double kPhotonsADisc = 20.0, kRowCost = 16.0, kPi = 3.14159265358979324;
+  constexpr double kPhotonsADisc = 20.0, kRowCost = 12.0, kPi = 3.14159265358979324;
   const double side = 2.0 + cell / radius;  // of the square, in radii
   const double rows = 2.0 * radius / cell + 1.5;
   return kPhotonsADisc / kPi * side * side + kRowCost * rows * rows;
@@ -99,9 +100,14 @@ float cell_from_radii(std::span<const std::uint32_t> histogram) {
   const auto radius = [](std::size_t bin) {
     return std::exp2(0.25 * (static_cast<double>(bin) + 0.5) - 32.0);
   };
+  // Larger cells than nine in ten discs' radii would pay for the tenth's rows alone.
+  const std::uint64_t all = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
+  std::uint64_t smaller = 0;
   double least = std::numeric_limits<double>::infinity();
   double best = 0.0;
-  for (std::size_t candidate = 0; candidate < histogram.size(); ++candidate) {
+  for (std::size_t candidate = 0; candidate < histogram.size() && 10 * smaller < 9 * all;
+       ++candidate) {
+    smaller += histogram[candidate];
     const double cell = radius(candidate);
     double cost = 0.0;
     for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
