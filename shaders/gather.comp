@@ -42,8 +42,8 @@ float squared_distance(vec3 a, vec3 b) {
   return distance2;
 }
 
-// Which photons of the chunk lie in the disc, a bit each.
-uint photons_within(Chunk chunk, vec3 centre, float radius2) {
+// Which photons of the chunk lie in the disc, a bit each: those from the 33rd invocation on, if any, in the second word.
+uvec2 chunk_within(Chunk chunk, vec3 centre, float radius2) {
   uint photon = chunk.begin + lane();
   bool valid = photon < chunk.end;
   vec3 position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? photon : 0u).xyz);
@@ -52,9 +52,12 @@ uint photons_within(Chunk chunk, vec3 centre, float radius2) {
     valid = valid && cell.y == chunk.y && cell.z == chunk.z;
   }
   if (!valid) position = vec3(1e18);
-  uint found = 0u;
-  for (uint i = 0u; i < kSubgroupSize; ++i) {
-    found |= squared_distance(subgroupShuffle(position, i), centre) <= radius2 ? 1u << i : 0u;
+  uvec2 found = uvec2(0u);
+  for (uint i = 0u; i < min(kSubgroupSize, 32u); ++i) {
+    found.x |= squared_distance(subgroupShuffle(position, i), centre) <= radius2 ? 1u << i : 0u;
+  }
+  for (uint i = 32u; i < kSubgroupSize; ++i) {
+    found.y |= squared_distance(subgroupShuffle(position, i), centre) <= radius2 ? 1u << (i - 32u) : 0u;
   }
   return found;
 }
@@ -69,7 +72,7 @@ void main() {
   float radius2 = fetch_radius2(hit);
   CellBox own = cells_within(push.grid, receiver.position, radius2);
   Sums sums = no_sums();
-  uint chunks_a_batch = kBatch >> subgroup_bits();
+  uint chunks_a_batch = min(kBatch >> subgroup_bits(), kSubgroupSize);
   uint budget = kChunkBudget;
 
   // Those near the first that waits search with it; then the next, and those near that one. All loops are tested at
@@ -111,10 +114,10 @@ void main() {
         uint count = min(chunks_a_batch, total - first_chunk);
         uint chunk = 0u;
         do {
-          uint bits = photons_within(chunk_of(batch, chunk), receiver.position, reach2);
+          uvec2 bits = chunk_within(chunk_of(batch, chunk), receiver.position, reach2);
           uint place = chunk * kSubgroupSize;
-          found.x |= place < 32u ? bits << place : 0u;
-          found.y |= place >= 32u ? bits << (place - 32u) : 0u;
+          uint placed = bits.x << (place & 31u);
+          found |= place < 32u ? uvec2(placed, bits.y) : uvec2(0u, placed);
         } while (++chunk < count);
 
         uint most = subgroup_max(bitCount(found.x) + bitCount(found.y));

@@ -12,20 +12,6 @@ layout(push_constant, scalar) uniform PushBlock { GatherPush push; };
 layout(binding = PPM_BIND_CONTINUE_IN, scalar) readonly buffer ContinueIn { GatherCursor continue_in[]; };
 layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { GatherCursor continue_out[]; };
 
-// Which of up to 32 photons lie in the disc, a bit each. Finding is cheap and adding dear, and invocations in step
-// take as long as the one with most to do: apart, neither waits for the other.
-uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
-  uint found = 0u;
-  uint i = first;
-  do {  // tested at its end, as all loops here: lavapipe runs the body of another once more, with no lane in it
-    bool valid = i < last;
-    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? i : 0u).xyz);
-    bool found_it = valid && within(push.grid, row, position, photon_position, radius2);
-    found |= found_it ? 1u << (i - first) : 0u;
-  } while (++i < last);
-  return found;
-}
-
 void leave_cursor(uint hit, uint row, uint offset) {
   uint slot = atomicAdd(counters[PPM_COUNTER_CONTINUE], 1u);
   if (slot < push.cursor_capacity) continue_out[slot] = GatherCursor(hit, row, offset);
@@ -53,7 +39,7 @@ void main() {
     uint end = min(row.end, begin + budget);
     uint first = begin;
     do {
-      uint found = photons_within(row, receiver.position, radius2, first, min(first + 32u, end));
+      uint found = photons_within(push.grid, row, receiver.position, radius2, first, min(first + 32u, end));
       do {
         bool valid = found != 0u;
         add_photon(receiver, PPM_FETCH(sorted_flux, valid ? first + uint(findLSB(found)) : 0u), valid, sums);

@@ -30,19 +30,6 @@ struct Found {
   uint candidates;  // photons in the cells around; above PPM_GATHER_SLICE it is too many to look at them
 };
 
-// Which of up to 32 photons lie within the radius, a bit each.
-uint photons_within(CellRow row, vec3 position, float radius2, uint first, uint last) {
-  uint found = 0u;
-  uint i = first;
-  do {  // tested at its end, as all loops here: lavapipe runs the body of another once more, with no lane in it
-    bool valid = i < last;
-    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? i : 0u).xyz);
-    bool found_it = valid && within(push.grid, row, position, photon_position, radius2);
-    found |= found_it ? 1u << (i - first) : 0u;
-  } while (++i < last);
-  return found;
-}
-
 Found search(uint hit) {
   uvec4 plane0 = PPM_FETCH(hits_0, hit);
   vec3 position = uintBitsToFloat(plane0.xyz);
@@ -59,7 +46,7 @@ Found search(uint hit) {
     if (found.candidates > PPM_GATHER_SLICE) row.end = row.begin;
     uint first = row.begin;
     do {
-      uint nearby = photons_within(row, position, radius2, first, min(first + 32u, row.end));
+      uint nearby = photons_within(push.grid, row, position, radius2, first, min(first + 32u, row.end));
       do {
         bool valid = nearby != 0u;
         uvec4 flux = PPM_FETCH(sorted_flux, valid ? first + uint(findLSB(nearby)) : 0u);

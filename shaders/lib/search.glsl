@@ -63,4 +63,18 @@ bool within(GridConstants grid, CellRow row, vec3 position, vec3 photon_position
   return cell.y == row.y && cell.z == row.z;
 }
 
+// Which of up to 32 photons lie in the disc, a bit each. Finding is cheap and adding dear, and invocations in step
+// take as long as the one with most to do: apart, neither waits for the other.
+uint photons_within(GridConstants grid, CellRow row, vec3 position, float radius2, uint first, uint last) {
+  uint found = 0u;
+  uint i = first;
+  do {  // tested at its end, as all loops of searches: lavapipe runs the body of another once more, with no lane in it
+    bool valid = i < last;
+    vec3 photon_position = uintBitsToFloat(PPM_FETCH(sorted_position, valid ? i : 0u).xyz);
+    bool found_it = valid && within(grid, row, position, photon_position, radius2);
+    found |= found_it ? 1u << (i - first) : 0u;
+  } while (++i < last);
+  return found;
+}
+
 #endif
