@@ -108,7 +108,6 @@ void main() {
         for (uint i = 0u; i < kSubgroupSize; ++i) source += subgroupShuffle(chunks_to_here, i) <= number ? 1u : 0u;
         Chunk batch = chunk_of(of_row, min(source, kSubgroupSize - 1u));
         batch.begin += number * kSubgroupSize;
-        if (number >= total) batch.end = 0u;
 
         uvec2 found = uvec2(0u);
         uint count = min(chunks_a_batch, total - first_chunk);

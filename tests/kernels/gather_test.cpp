@@ -14,6 +14,7 @@
 #include "photon_grid.hpp"
 #include "randoms.hpp"
 #include "shared/grid.h"
+#include "shared/ppm.h"
 #include "synthetic_photons.hpp"
 
 namespace ppm::tests {
@@ -298,6 +299,27 @@ TEST_F(Gather, UpdateTakesTheSumsAndClearsThem) {
     EXPECT_NEAR(statistics[i].x, lambda, 4e-7 * lambda);
     EXPECT_NEAR(statistics[i].w, sums[i].count > 0 ? 0.7 * r2 : r2, 3e-7 * r2);
   }
+}
+
+// The histogram of radii that the update leaves, by the cell size that follows from it: 840 small
+// discs together, then 100 large ones among others that have none.
+TEST_F(Gather, UpdateCountsEveryRadius) {
+  std::vector<SyntheticHit> hits;
+  Randoms random(20);
+  for (int i = 0; i < 840; ++i) hits.push_back({random.in_cube(1.0f), 1e-4f});
+  for (int i = 0; i < 100; ++i) {
+    hits.push_back({random.in_cube(1.0f), 0.04f});
+    hits.push_back({random.in_cube(1.0f), 0.0f});
+  }
+  render::HitTile tile = make_tile(device(), hits);
+  SyntheticEstimator estimator(device(), hits.size());
+  estimator->update(std::span(&tile, 1), 0.7f);
+  std::vector<std::uint32_t> histogram(PPM_RADIUS_BINS);
+  histogram[shared::radius_bin(1e-4f)] = 840;
+  histogram[shared::radius_bin(0.04f)] = 100;
+  EXPECT_EQ(estimator->cell_size(), render::cell_from_radii(histogram));
+  histogram[shared::radius_bin(1e-4f)] = 105;  // each subgroup of eight once
+  EXPECT_NE(estimator->cell_size(), render::cell_from_radii(histogram));
 }
 
 }  // namespace
