@@ -1,6 +1,6 @@
-// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes: where
-// it landed, which is all that a search reads of photons it rejects, and all that a hit point needs to
-// know of those it accepts.
+// The photon record: what a surface keeps of a photon that lands on it. Two planes of 16 bytes:
+// where it landed, which is all that a search reads of photons it rejects, and all that a hit point
+// needs to know of those it accepts.
 #ifndef PPM_SHARED_PHOTON_H
 #define PPM_SHARED_PHOTON_H
 
@@ -21,8 +21,8 @@ PPM_FN uvec4 pack_photon_position(Photon photon) {
                floatBitsToUint(photon.position.z), 0u);
 }
 
-// Both directions; the flux as three 16-bit mantissas under one exponent, that of the largest channel:
-// each is rounded by at most 2^-17 of the largest. Channels from 2^-111 on are kept.
+// Both directions; the flux as three 16-bit mantissas under one exponent, that of the largest
+// channel: each is rounded by at most 2^-17 of the largest. Channels from 2^-111 on are kept.
 PPM_FN uvec4 pack_photon_flux(Photon photon) {
   uint exponent = max(floatBitsToUint(max_component(photon.flux)) >> 23u, 16u);
   vec3 mantissa = photon.flux * uintBitsToFloat((269u - exponent) << 23u);  // below 2^16

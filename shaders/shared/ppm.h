@@ -99,8 +99,8 @@ PPM_FN Fixed64 add_fixed(Fixed64 a, Fixed64 b, PPM_OUT(uint) carry_out) {
   return sum;
 }
 
-// Adds x in [0, PPM_FIXED_LIMIT). Bit 31 of `highs` is set as soon as the sum passes 2^31, before it
-// could pass 2^32 unseen.
+// Adds x in [0, PPM_FIXED_LIMIT). Bit 31 of `highs` is set as soon as the sum passes 2^31, before
+// it could pass 2^32 unseen.
 PPM_FN void accumulate_fixed(PPM_INOUT(Fixed64) sum, float x, PPM_INOUT(uint) highs) {
   Fixed64 term = to_fixed(x);
   sum.low += term.low;

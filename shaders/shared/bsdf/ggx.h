@@ -35,8 +35,8 @@ PPM_FN float ggx_lambda(float alpha, vec3 w) {
 
 // Per steradian; no cosine included. The half vector h is left at its length, which cancels but for
 // dot(wo, h) / |h| = |h| / 2; masking over the cosines is Heitz's
-// 1 / (2 (z_o sqrt(z_i^2 + a^2 sin^2_i) + z_i sqrt(z_o^2 + a^2 sin^2_o))), which has no division but
-// the last.
+// 1 / (2 (z_o sqrt(z_i^2 + a^2 sin^2_i) + z_i sqrt(z_o^2 + a^2 sin^2_o))), which has no division
+// but the last.
 PPM_FN vec3 ggx_eval(GgxLobe lobe, vec3 wo, vec3 wi) {
   vec3 h = wo + wi;
   float h2 = dot(h, h);
