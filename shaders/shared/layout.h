@@ -123,9 +123,7 @@ struct SceneConstants {
 // ---- Counters
 // ---------------------------------------------------------------------------------------------
 
-#define PPM_COUNTER_PATHS_OUT 0  // paths that go on, or eye paths
-#define PPM_COUNTER_PHOTONS \
-  1  // photons stored (may pass the capacity: then the pass is redone in parts)
+#define PPM_COUNTER_PATHS_OUT 0       // paths that go on, or eye paths
 #define PPM_COUNTER_HITS 2            // hit points found (idem)
 #define PPM_COUNTER_CONTINUE 3        // searches to be continued
 #define PPM_COUNTER_PATHS_CUT 4       // paths ended by a safety cap

@@ -59,13 +59,8 @@ PPM_FN Photon unpack_photon(uvec4 position, uvec4 flux) {
 // Whether a photon found within a hit point's disc counts there: it must have arrived on the side
 // the eye sees (every lobe stored today reflects), on a surface that faces about the same way. The
 // normals' threshold keeps light from leaking through thin walls and around edges; it vanishes with
-// the radius on smooth surfaces.
-PPM_FN bool accepts_photon(vec3 hit_normal, vec3 incident, vec3 photon_normal) {
-  return dot(photon_normal, hit_normal) > PPM_LEAST_NORMAL_COSINE &&
-         dot(incident, hit_normal) > 0.0f;
-}
-
-// The same from packed directions, without making them unit vectors.
+// the radius on smooth surfaces. incident and photon_normal are packed; they are not made unit
+// vectors first.
 PPM_FN bool accepts_packed_photon(vec3 hit_normal, uint incident, uint photon_normal) {
   vec3 normal = unpack_octahedral(photon_normal);
   float cosine = dot(normal, hit_normal);
