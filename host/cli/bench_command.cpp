@@ -53,7 +53,9 @@ std::vector<bench::Case> cases_for(const std::vector<std::string>& scenes,
     const auto builtin = bench::find_builtin_scenes(scene);
     for (const bench::BuiltinScene& one : builtin) add(case_of(one, render));
     if (builtin.empty()) {
-      add(case_of(scene, render, [scene](Log& log) { return scene::load_gltf(scene, log); }));
+      add(case_of(scene, render, [scene, load = render.load](Log& log) {
+        return scene::load_gltf(scene, log, load);
+      }));
     }
   }
   return cases;
@@ -92,6 +94,7 @@ std::string settings_text(const BenchOptions& options) {
     return value ? std::to_string(*value) : std::to_string(otherwise);
   };
   std::string size = "width " + side(render.width, settings.width);
+  if (!render.load.scene.empty()) size = "scene " + render.load.scene + ", " + size;
   if (render.height) size += fmt::format(", height {}", *render.height);
   return fmt::format(
       "{}, {}, {} eye paths a pixel, {} photons a pass, alpha {}, radius {}, seed {}, max depth "

@@ -9,6 +9,7 @@
 
 #include "glm/glm.hpp"
 #include "integrator.hpp"
+#include "load_gltf.hpp"
 #include "log.hpp"
 
 namespace ppm::cli {
@@ -18,6 +19,7 @@ enum class Verb { render, bench, devices, nothing };
 /// `ppm-vk render ...`, checked for all that can be checked without opening a file.
 struct RenderOptions {
   std::filesystem::path scene;
+  scene::LoadOptions load;  ///< what of the file is read
   std::vector<std::filesystem::path> outputs;
   std::optional<std::uint32_t> width,
       height;  ///< Settings::width and height follow once the camera is known

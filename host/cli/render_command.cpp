@@ -49,7 +49,7 @@ int render_command(const RenderOptions& options) {
   const render::Outputs outputs{options.outputs, options.exposure, options.stats};
   render::check_outputs(outputs);
 
-  const scene::Scene scene = scene::load_gltf(options.scene, log);
+  const scene::Scene scene = scene::load_gltf(options.scene, log, options.load);
   const double load_seconds = seconds_since(start);
   if (interruption.requested()) {
     log.warn("interrupted while the scene was read; nothing is written");

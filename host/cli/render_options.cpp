@@ -126,6 +126,12 @@ void declare_camera(Declarer& declare, RenderOptions& options) {
                   options.settings.width));
   declare.whole<std::uint32_t>("--height", options.height, 1, kLargestSide,
                                "pixels (default from the width and the camera's aspect, or 4:3)");
+  declare.text("--scene", "NAME|INDEX",
+               "scene of the file (default the one it names, or the first)",
+               [&](const std::string& value) {
+                 if (value.empty()) throw refusal("--scene", value, "a name or an index");
+                 options.load.scene = value;
+               });
   declare.text("--camera", "NAME|INDEX", "camera of the file (default the first)",
                [&](const std::string& value) { options.camera = value; });
   declare.vector("--camera-position", options.camera_position,

@@ -1,11 +1,16 @@
 #include "gltf_nodes.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "failure.hpp"
+
 namespace ppm::scene::gltf {
 namespace {
+
+constexpr std::size_t kMostListed = 10;
 
 glm::dmat4 matrix_of(const Place& place, const std::vector<double>& values) {
   place.check_length(values.size(), 16);
@@ -92,8 +97,33 @@ Nodes parentless_nodes(const Place& root) {
   return roots;
 }
 
-Nodes root_nodes(const Place& root) {
+/// The scene that `wanted` names, or else counts from 0. Many have no name.
+std::size_t chosen_scene(const Place& root, const std::string& wanted) {
+  const std::vector<tinygltf::Scene>& scenes = root.model().scenes;
+  const auto named = std::find_if(scenes.begin(), scenes.end(),
+                                  [&](const auto& scene) { return scene.name == wanted; });
+  if (named != scenes.end()) return static_cast<std::size_t>(named - scenes.begin());
+  std::size_t index = 0;
+  const char* const last = wanted.data() + wanted.size();
+  const auto [end, error] = std::from_chars(wanted.data(), last, index);
+  if (error == std::errc{} && end == last && index < scenes.size()) return index;
+
+  std::string list = scenes.empty() ? "leave --scene out: the file has none" : "the file has ";
+  for (std::size_t i = 0; i < std::min(scenes.size(), kMostListed); ++i) {
+    list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + printable(scenes[i].name) + "\"";
+  }
+  if (scenes.size() > kMostListed) list += " and more";
+  throw Failure(root.document().file, "--scene", "there is no scene '" + printable(wanted) + "'",
+                list);
+}
+
+Nodes root_nodes(const Place& root, const std::string& wanted) {
   const tinygltf::Model& model = root.model();
+  if (!wanted.empty()) {
+    const std::size_t position = chosen_scene(root, wanted);
+    const Place scene = root.member("scenes").item(position);
+    return nodes_of(scene.member("nodes"), model.scenes[position].nodes);
+  }
   const bool names_one = model.defaultScene != -1;
   if (!names_one && model.scenes.empty()) return parentless_nodes(root);
   const auto scene =
@@ -111,14 +141,14 @@ std::optional<glm::dvec3> unit(glm::dvec3 v) {
   return std::isfinite(glm::dot(result, result)) ? std::optional(result) : std::nullopt;
 }
 
-std::vector<Placement> place_nodes(Document& document) {
+std::vector<Placement> place_nodes(Document& document, const std::string& wanted) {
   std::vector<Placement> pending;  // a stack of our own: the depth is the file's choice
   const auto push = [&](const Nodes& nodes, const glm::dmat4& parent_to_world) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
       pending.push_back({*node, parent_to_world});
     }
   };
-  push(root_nodes(Place(document, "")), glm::dmat4(1.0));
+  push(root_nodes(Place(document, ""), wanted), glm::dmat4(1.0));
   std::vector<Placement> placements;
   std::vector<bool> reached(document.model.nodes.size(), false);
   while (!pending.empty()) {

@@ -17,9 +17,9 @@ struct Placement {
 /// The unit vector along `v`, or nothing where `v` is zero or not finite.
 std::optional<glm::dvec3> unit(glm::dvec3 v);
 
-/// The nodes of the default scene (the first if none is named; all root nodes if there is none),
-/// parents first. Throws Failure for cycles, nodes with two parents and transforms that are not
-/// finite.
-std::vector<Placement> place_nodes(Document& document);
+/// The nodes of a scene, parents first. `wanted` is its name or index; empty: the default scene
+/// (the first if the file names none, all root nodes if it has none). Throws Failure where there is
+/// no such scene, for cycles, nodes with two parents and transforms that are not finite.
+std::vector<Placement> place_nodes(Document& document, const std::string& wanted);
 
 }  // namespace ppm::scene::gltf

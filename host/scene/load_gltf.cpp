@@ -135,14 +135,14 @@ void read_materials(const MaterialUses& uses, const Place& root, Scene& scene) {
   }
 }
 
-Scene read_scene(const std::filesystem::path& file, Log& log) {
+Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
   Document document = read_document(file, log);
   const Place root(document, "");
   check_version(root);
   if (!document.model.animations.empty()) {
     root.member("animations").warn("animations", "animations are ignored");
   }
-  const std::vector<Placement> placements = place_nodes(document);
+  const std::vector<Placement> placements = place_nodes(document, options.scene);
   MaterialUses uses;
   Meshes meshes;
   const std::vector<Instance> instances = place_meshes(placements, uses, meshes);
@@ -161,9 +161,9 @@ Scene read_scene(const std::filesystem::path& file, Log& log) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& file, Log& log) {
+Scene load_gltf(const std::filesystem::path& file, Log& log, const LoadOptions& options) {
   try {
-    return read_scene(file, log);
+    return read_scene(file, options, log);
   } catch (const std::bad_alloc&) {
     throw Failure(file.string(), "", "needs more memory than there is", "use a smaller scene");
   }

@@ -2,20 +2,28 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "log.hpp"
 #include "scene.hpp"
 
 namespace ppm::scene {
 
-/// Reads the file's default scene (the first if none is named; all root nodes if there are none).
+/// What of a file is read, and how.
+struct LoadOptions {
+  /// Name or index of the scene (`scenes`). Empty: the file's default one, the first if it names
+  /// none, all root nodes if it has none.
+  std::string scene;
+};
+
+/// Reads a scene of the file, as `options` say.
 ///
 /// What the renderer does not understand is warned of once per kind through `log`. Throws `Failure`
 /// naming the file, the JSON path and the remedy when the file is missing, malformed, refers
 /// outside itself, has non-finite numbers where they matter, requires an unknown extension, or has
 /// no triangles. Never reads outside the file's buffers and never allocates in proportion to a
 /// number the file merely claims.
-Scene load_gltf(const std::filesystem::path& file, Log& log);
+Scene load_gltf(const std::filesystem::path& file, Log& log, const LoadOptions& options = {});
 
 /// A camera that sees all triangles, for files without one: 45 degrees, from +Z slightly above.
 Camera frame_camera(const Scene& scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "failure.hpp"
 #include "gltf_document.hpp"
 #include "load_gltf.hpp"
 
@@ -141,6 +142,37 @@ TEST(LoadGltf, ChoosesTheDefaultScene) {
   EXPECT_EQ(depth(), 1.0);
   document.root["scene"] = 1;
   EXPECT_EQ(depth(), 2.0);
+}
+
+TEST(LoadGltf, ReadsTheSceneThatIsAskedFor) {
+  GltfDocument document;
+  for (int i = 0; i < 3; ++i) {
+    document.triangle();
+    document.root["nodes"].back()["translation"] = {0, 0, i};
+  }
+  document.root["scenes"] = {
+      {{"nodes", {0}}, {"name", "day"}}, {{"nodes", {1}}}, {{"nodes", {2}}, {"name", "0"}}};
+  document.root["scene"] = 1;
+  const TemporaryFolder folder;
+  document.write_gltf(folder / "scene.gltf");
+  Log log(Verbosity::quiet);
+  const auto depth = [&](const char* wanted) {
+    return world_corners(scene::load_gltf(folder / "scene.gltf", log, {.scene = wanted}), 0)[0].z;
+  };
+  EXPECT_EQ(depth(""), 1.0);
+  EXPECT_EQ(depth("day"), 0.0);
+  EXPECT_EQ(depth("1"), 1.0);
+  EXPECT_EQ(depth("0"), 2.0);  // names go before indices
+  for (const char* absent : {"3", "-1", "Day", "1x"}) {
+    try {
+      depth(absent);
+      ADD_FAILURE() << absent;
+    } catch (const Failure& failure) {
+      const std::string line = failure.what();
+      EXPECT_NE(line.find("--scene: there is no scene '" + std::string(absent)), line.npos) << line;
+      EXPECT_NE(line.find("0 \"day\", 1 \"\", 2 \"0\""), line.npos) << line;
+    }
+  }
 }
 
 TEST(LoadGltf, InstancesShareAMesh) {
