@@ -15,20 +15,8 @@ constexpr std::uint64_t kLargestFile = (std::uint64_t{1} << 32) - 16;  // tinygl
 constexpr std::uint64_t kLargestSize = std::uint64_t{1} << 48;
 constexpr std::size_t kLongestPrintable = 200;
 constexpr std::size_t kMostListed = 10;
-constexpr std::array kKnownExtensions{
-    "KHR_materials_specular",          "KHR_materials_ior",
-    "KHR_materials_transmission",      "KHR_materials_volume",
-    "KHR_materials_emissive_strength", "KHR_lights_punctual",
-    "KHR_mesh_quantization",
-};
-
 std::string item_of(const std::string& array, std::size_t position) {
   return array + "[" + std::to_string(position) + "]";
-}
-
-bool is_known_extension(std::string_view name) {
-  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) !=
-         kKnownExtensions.end();
 }
 
 /// Called for every image. `bytes` may point anywhere where the image lies in a bufferView.
@@ -121,26 +109,44 @@ tinygltf::Model parse(const std::vector<unsigned char>& bytes, const std::filesy
   return model;
 }
 
-void check_extensions(Document& document, std::set<std::string> used) {
+/// What the file uses, by name, as the table treats it.
+std::vector<UsedExtension> used_extensions(const std::set<std::string>& names,
+                                           const std::vector<std::string>& required) {
+  std::vector<UsedExtension> used;
+  for (const std::string& name : names) {
+    const ExtensionEntry* entry = find_extension(name);
+    used.push_back({printable(name), std::ranges::find(required, name) != required.end(),
+                    entry ? entry->treatment : Treatment::ignored,
+                    std::string(entry ? entry->note : "")});
+  }
+  return used;
+}
+
+void refuse_required(Document& document) {
   const auto& required = document.model.extensionsRequired;
   for (std::size_t i = 0; i < required.size(); ++i) {
-    if (is_known_extension(required[i])) continue;
+    const ExtensionEntry* entry = find_extension(required[i]);
+    if (entry && entry->treatment != Treatment::ignored) continue;
     Place(document, "extensionsRequired")
         .item(i)
         .fail("the file requires the extension " + printable(required[i]) +
-                  ", which this program does not know",
+                  ", which this program " + (entry ? "does not implement" : "does not know"),
               "export the file without it");
   }
-  std::erase_if(used, [](const std::string& name) { return is_known_extension(name); });
-  if (used.empty()) return;
+}
+
+void warn_of_ignored(const Document& document) {
   std::string list;
   std::size_t listed = 0;
-  for (const std::string& name : used) {
+  for (const UsedExtension& extension : document.extensions) {
+    if (extension.treatment != Treatment::ignored) continue;
     if (++listed > kMostListed) break;
-    list += (list.empty() ? "" : ", ") + printable(name);
+    list += (list.empty() ? "" : ", ") + extension.name;
+    if (!extension.note.empty()) list += " (" + extension.note + ")";
   }
-  if (used.size() > kMostListed) list += " and more";
-  document.log->warn(document.file + ": unknown extensions are ignored: " + list);
+  if (listed == 0) return;
+  if (listed > kMostListed) list += " and more";
+  document.log->warn(document.file + ": extensions are ignored: " + list);
 }
 
 }  // namespace
@@ -161,8 +167,10 @@ Document read_document(const std::filesystem::path& file, Log& log) {
     throw Failure(file.string(), "", error, "name a .gltf or .glb file that you may read");
   }
   const Survey found = survey(bytes, file.string());
-  Document document{file.string(), parse(bytes, file, found), &log, {}};
-  check_extensions(document, found.extensions);
+  Document document{file.string(), parse(bytes, file, found), &log, {}, {}};
+  refuse_required(document);
+  document.extensions = used_extensions(found.extensions, document.model.extensionsRequired);
+  warn_of_ignored(document);
   return document;
 }
 

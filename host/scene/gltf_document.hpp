@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "extensions.hpp"
 #include "log.hpp"
 
 namespace ppm::scene::gltf {
@@ -25,6 +26,7 @@ struct Document {
   tinygltf::Model model;
   Log* log = nullptr;
   std::set<std::string, std::less<>> warned;  ///< kinds of warnings given so far
+  std::vector<UsedExtension> extensions;      ///< by name
 };
 
 /// Reads a .gltf or .glb file, told by its first bytes, and the files beside or below it that it

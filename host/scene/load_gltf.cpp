@@ -98,6 +98,8 @@ void bake_triangles(const std::vector<Instance>& instances, const Place& root, S
       bake(primitive, instance.to_world, scene.frame, scene.triangles, left_out);
     }
   }
+  scene.findings.triangles_without_area = left_out.without_area;
+  scene.findings.triangles_too_small = left_out.too_small;
   if (left_out.without_area > 0) {
     log.note(scene.file + ": " + std::to_string(left_out.without_area) +
              " triangles without area were left out");
@@ -149,6 +151,7 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
 
   Scene scene;
   scene.file = document.file;
+  scene.findings.extensions = document.extensions;
   bake_triangles(instances, root, scene, log);
   measure_bounds(scene);
   read_materials(uses, root, scene);

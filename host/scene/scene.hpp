@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "extensions.hpp"
+
 namespace ppm::scene {
 
 /// World to working frame, see above. World units are those of the file (metres in glTF).
@@ -96,6 +98,13 @@ struct Camera {
   std::optional<double> aspect;      ///< width / height, where the file gives one
 };
 
+/// What the loader found beside what is rendered: for people, and for nothing else.
+struct Findings {
+  std::vector<UsedExtension> extensions;     ///< by name
+  std::uint64_t triangles_without_area = 0,  ///< left out
+      triangles_too_small = 0;               ///< left out: no area in single precision
+};
+
 struct Scene {
   std::string file;  ///< as the user named it
   Frame frame;
@@ -106,6 +115,7 @@ struct Scene {
   std::vector<Camera> cameras;
 
   glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};  ///< of the triangles, working frame
+  Findings findings;
 };
 
 }  // namespace ppm::scene
