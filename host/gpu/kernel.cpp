@@ -9,7 +9,7 @@
 namespace ppm::gpu {
 
 Kernel::Kernel(Device& device, const Shader& shader,
-               std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> constants)
+               const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants)
     : implementation_(std::make_unique<Implementation>(device.implementation())) {
   implementation_->open(shader, constants);
 }

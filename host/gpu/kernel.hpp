@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstring>
-#include <initializer_list>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "buffer.hpp"
 #include "shader.hpp"
@@ -29,7 +29,7 @@ class BindingTable {
 class Kernel {
  public:
   Kernel(Device& device, const Shader& shader,
-         std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> constants = {});
+         const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants = {});
   ~Kernel();
   Kernel(Kernel&&) noexcept;
   Kernel& operator=(Kernel&&) noexcept;

@@ -35,6 +35,13 @@ std::uint64_t queue_capacity(const Settings& settings, std::uint64_t hits) {
   return std::min(hits, std::max(paths, kLeastQueue));
 }
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> with_generate(const SceneTraits& traits,
+                                                                   std::uint32_t generate) {
+  auto constants = traits.specialisation();
+  constants.emplace_back(kGenerate, generate);
+  return constants;
+}
+
 }  // namespace
 
 std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device) {
@@ -43,8 +50,8 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
 }
 
 EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits)
-    : start(device, shaders::eye, {{kGenerate, 1}, {PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss}}),
-      go_on(device, shaders::eye, {{kGenerate, 0}, {PPM_SPEC_ROUGH_GLOSS, traits.rough_gloss}}),
+    : start(device, shaders::eye, with_generate(traits, 1)),
+      go_on(device, shaders::eye, with_generate(traits, 0)),
       scatter(device, shaders::eye_scatter),
       order(device, shaders::eye_order) {}
 

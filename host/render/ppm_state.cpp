@@ -38,9 +38,34 @@ void append(SavedState& state, const void* data, std::size_t size) {
   state.insert(state.end(), bytes, bytes + size);
 }
 
+void add(Hash& hash, const scene::OptionalTextureUse& use) {
+  hash.add(use.has_value());
+  if (!use) return;
+  hash.add(use->texture);
+  hash.add(use->texcoord_set);
+  hash.add(&use->row_s, sizeof use->row_s);
+  hash.add(&use->row_t, sizeof use->row_t);
+}
+
 void add(Hash& hash, const scene::Material& material) {
   hash.add(&material.base_color, sizeof material.base_color);
-  hash.add(material.base_color_texture.value_or(0xffffffffu));
+  for (const scene::OptionalTextureUse* use :
+       {&material.base_color_texture, &material.metallic_roughness_texture,
+        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
+        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
+        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
+    add(hash, *use);
+  }
+  hash.add(material.normal_scale);
+  hash.add(material.clearcoat_normal_scale);
+  hash.add(static_cast<std::uint32_t>(material.alpha_mode));
+  hash.add(material.alpha);
+  hash.add(material.alpha_cutoff);
+  hash.add(material.dispersion);
+  hash.add(material.clearcoat);
+  hash.add(material.clearcoat_roughness);
+  hash.add(material.unlit);
+  hash.add(material.priority);
   hash.add(material.metallic);
   hash.add(material.roughness);
   hash.add(material.specular);
@@ -70,6 +95,7 @@ void add(Hash& hash, const scene::PunctualLight& light) {
   hash.add(&light.intensity, sizeof light.intensity);
   hash.add(light.inner_cone_angle);
   hash.add(light.outer_cone_angle);
+  hash.add(light.range);
 }
 
 [[noreturn]] void refuse(const char* why) {
@@ -94,6 +120,7 @@ std::uint64_t PpmIntegrator::fingerprint() const {
     for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
     hash.add(triangle.material);
   }
+  for (const scene::TriangleDetail& detail : scene_.details) hash.add(&detail, sizeof detail);
   for (const scene::Material& material : scene_.materials) add(hash, material);
   for (const scene::Texture& texture : scene_.textures) add(hash, texture);
   for (const scene::PunctualLight& light : scene_.punctual_lights) add(hash, light);

@@ -17,22 +17,50 @@ constexpr std::uint32_t kPhotonBounceCap = 1024;
 constexpr std::uint32_t kEyeBounceCap = 250;  // a hit point keeps its count in 8 bits
 constexpr std::size_t kMaxMaterials = 65535;  // a path keeps its medium in 16 bits
 
+/// The textures that a material uses, in the order of PPM_USE_*, are added to `uses`.
+void add_uses(const scene::Material& material, shared::MaterialRecord& record,
+              std::vector<shared::TextureUse>& uses) {
+  record.first_use = static_cast<std::uint32_t>(uses.size());
+  std::uint32_t which = PPM_USE_BASE_COLOR;
+  for (const scene::OptionalTextureUse* use :
+       {&material.base_color_texture, &material.metallic_roughness_texture,
+        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
+        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
+        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
+    if (*use) {
+      record.use_mask |= which;
+      uses.push_back({(*use)->row_s,
+                      (*use)->texture | ((*use)->texcoord_set == 1 ? PPM_SECOND_TEXCOORD : 0u),
+                      (*use)->row_t, 0});
+    }
+    which <<= 1;
+  }
+}
+
 shared::MaterialRecord material_record(const scene::Material& material) {
   shared::MaterialRecord record{};
   record.base_color = material.base_color;
-  record.texture = material.base_color_texture ? 1 + *material.base_color_texture : 0;
   record.metallic = material.metallic;
   record.roughness = material.roughness;
   record.transmission = material.transmission;
   record.ior = material.ior;
   // KHR_materials_specular, section "Implementation".
   const float base = (material.ior - 1.0f) / (material.ior + 1.0f);
-  record.specular_f0 =
-      glm::min(base * base * material.specular_color, glm::vec3(1.0f)) * material.specular;
-  record.specular_f90 = material.specular;
+  record.specular_f0 = base * base * material.specular_color;
+  record.specular = material.specular;
   record.emission = material.emission;
   record.flags = (material.double_sided ? PPM_MATERIAL_DOUBLE_SIDED : 0u) |
-                 (material.solid ? PPM_MATERIAL_SOLID : 0u);
+                 (material.solid ? PPM_MATERIAL_SOLID : 0u) |
+                 (material.alpha_mode == scene::AlphaMode::mask ? PPM_MATERIAL_MASK : 0u) |
+                 (material.alpha_mode == scene::AlphaMode::blend ? PPM_MATERIAL_BLEND : 0u) |
+                 (material.unlit ? PPM_MATERIAL_UNLIT : 0u);
+  record.alpha = material.alpha;
+  record.alpha_cutoff = material.alpha_cutoff;
+  record.normal_scale = material.normal_scale;
+  record.clearcoat = material.clearcoat;
+  record.clearcoat_roughness = material.clearcoat_roughness;
+  record.clearcoat_normal_scale = material.clearcoat_normal_scale;
+  record.dispersion = material.dispersion;
   if (material.solid && std::isfinite(material.attenuation_distance)) {
     // Transmittance attenuation_color after attenuation_distance; a channel of 0 lets next to
     // nothing through.
@@ -43,9 +71,9 @@ shared::MaterialRecord material_record(const scene::Material& material) {
 }
 
 shared::TriangleShading shading_record(const scene::Triangle& triangle) {
-  const auto color = [](const glm::vec3& c) {
+  const auto color = [](const glm::vec4& c) {
     return glm::uvec2(glm::packUnorm2x16(glm::vec2(c.x, c.y)),
-                      glm::packUnorm2x16(glm::vec2(c.z, 1.0f)));
+                      glm::packUnorm2x16(glm::vec2(c.z, c.w)));
   };
   const auto& corners = triangle.corners;
   shared::TriangleShading record{};
@@ -124,8 +152,11 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
     shading.push_back(shading_record(triangle));
   }
   std::vector<shared::MaterialRecord> materials;
-  for (const scene::Material& material : scene.materials)
+  std::vector<shared::TextureUse> uses;
+  for (const scene::Material& material : scene.materials) {
     materials.push_back(material_record(material));
+    add_uses(material, materials.back(), uses);
+  }
 
   std::vector<shared::TextureRecord> textures;
   std::vector<glm::u16vec4> texels;
@@ -150,6 +181,7 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   materials_ = texel_buffer(device, "materials", materials);
   textures_ = texel_buffer(device, "textures", textures);
   texels_ = texel_buffer(device, "texture texels", texels);
+  texture_uses_ = texel_buffer(device, "texture uses", uses);
   lights_ = texel_buffer(device, "lights", lights.records);
 }
 
@@ -161,6 +193,7 @@ void SceneBuffers::bind(gpu::BindingTable& table) const {
   table.set(PPM_BIND_MATERIALS, materials_);
   table.set(PPM_BIND_TEXTURES, textures_);
   table.set(PPM_BIND_TEXTURE_TEXELS, texels_);
+  table.set(PPM_BIND_TEXTURE_USES, texture_uses_);
   table.set(PPM_BIND_LIGHTS, lights_);
 }
 

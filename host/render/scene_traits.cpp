@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/bindings.h"
 #include "shared/bsdf.h"
 
 namespace ppm::render {
@@ -15,9 +16,27 @@ bool may_have_rough_gloss(const scene::Material& material) {
 
 }  // namespace
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> SceneTraits::specialisation() const {
+  return {{PPM_SPEC_ROUGH_GLOSS, rough_gloss},
+          {PPM_SPEC_TEXTURES, textures},
+          {PPM_SPEC_DETAILS, details},
+          {PPM_SPEC_COVERAGE, coverage},
+          {PPM_SPEC_LAYERS, layers},
+          {PPM_SPEC_DISPERSION, dispersion},
+          {PPM_SPEC_MEDIA, media},
+          {PPM_SPEC_ENVIRONMENT, environment}};
+}
+
 SceneTraits traits_of(const scene::Scene& scene) {
-  return {scene.bounds_min, scene.bounds_max,
-          std::ranges::any_of(scene.materials, may_have_rough_gloss)};
+  const auto any = [&](auto has) { return std::ranges::any_of(scene.materials, has); };
+  SceneTraits traits;
+  traits.bounds_min = scene.bounds_min;
+  traits.bounds_max = scene.bounds_max;
+  traits.rough_gloss = any(may_have_rough_gloss);
+  traits.textures = !scene.textures.empty();
+  traits.details = !scene.details.empty();
+  traits.media = any([](const scene::Material& material) { return material.solid; });
+  return traits;
 }
 
 }  // namespace ppm::render

@@ -1,13 +1,28 @@
 // What searches and kernels are told of a scene beforehand.
 #pragma once
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "scene.hpp"
 
 namespace ppm::render {
 
 struct SceneTraits {
   glm::vec3 bounds_min{-1.0f}, bounds_max{1.0f};  ///< of all triangles, working frame
-  bool rough_gloss = true;  ///< whether some material may have a rough glossy lobe
+  // Whether some material may have ...
+  bool rough_gloss = true;  ///< a rough glossy lobe
+  bool textures = true;     ///< a texture
+  bool details = false;     ///< a need of Scene::details
+  bool coverage = false;    ///< an alphaMode other than OPAQUE
+  bool layers = false;      ///< a rough glass or a clear coat
+  bool dispersion = false;
+  bool media = true;  ///< an inside
+  bool environment = false;
+
+  /// The same as constants of the kernels (shaders/lib/scene_kinds.glsl).
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> specialisation() const;
 };
 
 SceneTraits traits_of(const scene::Scene& scene);

@@ -170,8 +170,10 @@ void MaterialReader::read_metallic_roughness(const MaterialElement& element, Mat
   material.roughness =
       static_cast<float>(place.member("roughnessFactor").clamped(pbr.roughnessFactor, 0.0, 1.0));
   if (pbr.baseColorTexture.index != -1) {
-    material.base_color_texture =
-        read_texture({place.member("baseColorTexture"), pbr.baseColorTexture});
+    if (const auto texture =
+            read_texture({place.member("baseColorTexture"), pbr.baseColorTexture})) {
+      material.base_color_texture = TextureUse{*texture, 0, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    }
   }
   warn_of_member(place, "metallicRoughnessTexture", pbr.metallicRoughnessTexture.index != -1);
 }

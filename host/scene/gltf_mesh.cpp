@@ -209,14 +209,14 @@ glm::vec2 texcoord_of(const Primitive& primitive, std::uint64_t vertex) {
   return glm::vec2(0.0f);
 }
 
-glm::vec3 color_of(const Primitive& primitive, std::uint64_t vertex) {
-  if (!primitive.color) return glm::vec3(1.0f);
+glm::vec4 color_of(const Primitive& primitive, std::uint64_t vertex) {
+  if (!primitive.color) return glm::vec4(1.0f);
   const glm::dvec3 color = primitive.color->vec3(vertex);
   const glm::dvec3 legal(std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0),
                          std::clamp(color.z, 0.0, 1.0));
-  if (legal == color) return glm::vec3(color);
+  if (legal == color) return {glm::vec3(color), 1.0f};
   primitive.element.warn("vertex colors", "vertex colours outside [0,1] are clamped");
-  return is_finite(legal) ? glm::vec3(legal) : glm::vec3(1.0f);
+  return is_finite(legal) ? glm::vec4(glm::vec3(legal), 1.0f) : glm::vec4(1.0f);
 }
 
 glm::vec3 normal_of(const Primitive& primitive, std::uint64_t vertex, const glm::dmat3& matrix,

@@ -33,8 +33,15 @@ struct Corner {
   glm::vec3 position;        ///< working frame
   glm::vec3 normal;          ///< unit shading normal; the geometric one where the file has none
   glm::vec2 texcoord{0.0f};  ///< TEXCOORD_0
-  glm::vec3 color{1.0f};     ///< COLOR_0, linear, in [0,1]; multiplies the base colour
+  glm::vec4 color{1.0f};     ///< COLOR_0, linear, in [0,1]; multiplies the base colour and alpha
 };
+
+/// What few scenes need of a corner.
+struct CornerDetail {
+  glm::vec4 tangent{0.0f};    ///< unit vector of the working frame; w: 1 or -1, bitangent = w n x t
+  glm::vec2 texcoord1{0.0f};  ///< TEXCOORD_1
+};
+using TriangleDetail = std::array<CornerDetail, 3>;
 
 /// A triangle with positive area. Its front side is where the corners run counter-clockwise; the
 /// front-side geometric normal is cross(c1-c0, c2-c0). A mirroring node transform has already
@@ -45,6 +52,19 @@ struct Triangle {
 };
 
 enum class Wrap : std::uint32_t { repeat = 0, clamp_to_edge = 1, mirrored_repeat = 2 };
+
+/// How a material uses a texture.
+struct TextureUse {
+  std::uint32_t texture = 0;       ///< index into Scene::textures
+  std::uint32_t texcoord_set = 0;  ///< 0 or 1
+  /// KHR_texture_transform: s = dot(row_s, (u, v, 1)), t = dot(row_t, (u, v, 1)).
+  glm::vec3 row_s{1.0f, 0.0f, 0.0f}, row_t{0.0f, 1.0f, 0.0f};
+
+  bool operator==(const TextureUse&) const = default;
+};
+using OptionalTextureUse = std::optional<TextureUse>;
+
+enum class AlphaMode { opaque, mask, blend };
 
 /// A colour texture, linear light, row-major from the top (glTF's v = 0), `width * height` texels.
 struct Texture {
@@ -59,14 +79,32 @@ struct Texture {
 /// default.
 struct Material {
   std::string name;
-  glm::vec3 base_color{1.0f};                       ///< linear, in [0,1]
-  std::optional<std::uint32_t> base_color_texture;  ///< index into Scene::textures
-  float metallic = 1.0f;                            ///< in [0,1]
+  glm::vec3 base_color{1.0f};                     ///< linear, in [0,1]
+  OptionalTextureUse base_color_texture;          ///< RGBA, multiplies base_color and alpha
+  OptionalTextureUse metallic_roughness_texture;  ///< G multiplies roughness, B metallic
+  OptionalTextureUse normal_texture;
+  OptionalTextureUse emissive_texture;             ///< RGB, multiplies emission
+  OptionalTextureUse transmission_texture;         ///< R multiplies transmission
+  OptionalTextureUse specular_texture;             ///< A multiplies specular
+  OptionalTextureUse specular_color_texture;       ///< RGB, multiplies specular_color
+  OptionalTextureUse clearcoat_texture;            ///< R multiplies clearcoat
+  OptionalTextureUse clearcoat_roughness_texture;  ///< G multiplies clearcoat_roughness
+  OptionalTextureUse clearcoat_normal_texture;
+  float normal_scale = 1.0f, clearcoat_normal_scale = 1.0f;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha = 1.0f;              ///< in [0,1]; coverage where alpha_mode says so
+  float alpha_cutoff = 0.5f;       ///< MASK: covered where alpha is not below
+  float metallic = 1.0f;           ///< in [0,1]
   float roughness = 1.0f;          ///< perceptual, in [0,1]; GGX alpha is its square
   float specular = 1.0f;           ///< KHR_materials_specular: 0 makes a dielectric Lambertian
   glm::vec3 specular_color{1.0f};  ///< idem, multiplies the reflectance at normal incidence
   float ior = 1.5f;                ///< KHR_materials_ior, at least 1
   float transmission = 0.0f;       ///< KHR_materials_transmission, in [0,1]
+  float dispersion = 0.0f;         ///< KHR_materials_dispersion: 20 / Abbe number
+  float clearcoat = 0.0f, clearcoat_roughness = 0.0f;  ///< KHR_materials_clearcoat, in [0,1]
+  bool unlit = false;                                  ///< KHR_materials_unlit
+  /// Of two media that overlap the one of higher priority counts, or else the denser one.
+  int priority = 0;
   bool solid = false;  ///< KHR_materials_volume with thickness > 0: refracts, attenuates
   glm::vec3 attenuation_color{1.0f};  ///< transmittance after attenuation_distance
   float attenuation_distance = std::numeric_limits<float>::infinity();  ///< working frame
@@ -87,6 +125,8 @@ struct PunctualLight {
   glm::vec3 intensity{0.0f};
   float inner_cone_angle = 0.0f;  ///< radians from the axis; spot
   float outer_cone_angle = 0.0f;  ///< radians from the axis, in (inner, pi/2]; spot
+  /// Working units; where the light's window reaches zero; point and spot.
+  float range = std::numeric_limits<float>::infinity();
 };
 
 /// A pinhole camera that looks along `forward`.
@@ -109,6 +149,7 @@ struct Scene {
   std::string file;  ///< as the user named it
   Frame frame;
   std::vector<Triangle> triangles;
+  std::vector<TriangleDetail> details;  ///< one a triangle, or none where no material needs them
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<PunctualLight> punctual_lights;

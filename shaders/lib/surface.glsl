@@ -2,6 +2,8 @@
 #ifndef PPM_LIB_SURFACE_GLSL
 #define PPM_LIB_SURFACE_GLSL
 
+#include "lib/scene_kinds.glsl"
+
 #include "lib/texture.glsl"
 #include "lib/traverse.glsl"
 #include "shared/bsdf.h"
@@ -26,10 +28,11 @@ Bsdf make_bsdf(MaterialRecord material, vec3 base_color, bool front) {
   float opaque = dielectric * (1.0 - material.transmission);
   Bsdf bsdf;
   bsdf.diffuse.albedo = base_color * opaque;
-  bsdf.diffuse.coat_f0 = max_component(material.specular_f0);
-  bsdf.diffuse.coat_f90 = material.specular_f90;
-  bsdf.glossy.f0 = base_color * material.metallic + material.specular_f0 * opaque;
-  bsdf.glossy.f90 = material.metallic + material.specular_f90 * opaque;
+  vec3 specular_f0 = min(material.specular_f0, vec3(1.0)) * material.specular;
+  bsdf.diffuse.coat_f0 = max_component(specular_f0);
+  bsdf.diffuse.coat_f90 = material.specular;
+  bsdf.glossy.f0 = base_color * material.metallic + specular_f0 * opaque;
+  bsdf.glossy.f90 = material.metallic + material.specular * opaque;
   bsdf.glossy.alpha = material.roughness < PPM_DELTA_ROUGHNESS ? 0.0 : square(material.roughness);
   bsdf.glass = dielectric * material.transmission;
   bsdf.glass_tint = base_color;
@@ -69,10 +72,12 @@ Surface surface_at(Hit hit, vec3 direction) {
   surface.flags = material.flags;
   vec3 base_color = material.base_color * (unpack_color(c.zw) * weights.x + unpack_color(d.xy) * weights.y +
                                            unpack_color(d.zw) * weights.z);
-  if (material.texture != 0u) {
+  if (kTextures) {
     vec2 texcoord = uintBitsToFloat(b.xy) * weights.x + uintBitsToFloat(b.zw) * weights.y +
                     uintBitsToFloat(c.xy) * weights.z;
-    base_color *= sample_texture(material.texture - 1u, texcoord).rgb;
+    Texcoords texcoords = Texcoords(texcoord, vec2(0.0));
+    base_color *=
+        sample_use(material.first_use, material.use_mask, PPM_USE_BASE_COLOR, texcoords, vec4(1.0)).rgb;
   }
   bool emits = surface.front || (material.flags & PPM_MATERIAL_DOUBLE_SIDED) != 0u;
   surface.emission = emits ? material.emission : vec3(0.0);
@@ -83,7 +88,7 @@ Surface surface_at(Hit hit, vec3 direction) {
 // What is left of light after `distance` in the medium of a path's state (bits 16-31: 1 + material, 0 outside).
 vec3 medium_transmittance(uint state, float distance) {
   uint medium = state >> 16u;
-  if (medium == 0u) return vec3(1.0);
+  if (!kMedia || medium == 0u) return vec3(1.0);
   return exp(-fetch_material(medium - 1u).absorption * distance);
 }
 

@@ -7,6 +7,7 @@
 
 PPM_TEXELS(PPM_BIND_TEXTURES, textures);
 PPM_TEXELS(PPM_BIND_TEXTURE_TEXELS, texture_texels);
+PPM_TEXELS(PPM_BIND_TEXTURE_USES, texture_uses);
 
 vec4 fetch_color(uint index) {
   uvec4 pair = PPM_FETCH(texture_texels, index / 2u);
@@ -46,6 +47,22 @@ vec4 sample_texture(uint texture_index, vec2 texcoord) {
   vec4 top = mix(fetch_color(record.z + y0 * record.x + x0), fetch_color(record.z + y0 * record.x + x1), f.x);
   vec4 bottom = mix(fetch_color(record.z + y1 * record.x + x0), fetch_color(record.z + y1 * record.x + x1), f.x);
   return mix(top, bottom, f.y);
+}
+
+// Both sets of texture coordinates at a point.
+struct Texcoords {
+  vec2 set0, set1;
+};
+
+// The texture that a material uses as `which` (PPM_USE_*), or `otherwise` where it has none.
+vec4 sample_use(uint first_use, uint use_mask, uint which, Texcoords texcoords, vec4 otherwise) {
+  if ((use_mask & which) == 0u) return otherwise;
+  uint use = first_use + uint(bitCount(use_mask & (which - 1u)));
+  uvec4 a = PPM_FETCH(texture_uses, PPM_TEXTURE_USE_TEXELS * use);
+  uvec4 b = PPM_FETCH(texture_uses, PPM_TEXTURE_USE_TEXELS * use + 1u);
+  vec3 uv1 = vec3((a.w & PPM_SECOND_TEXCOORD) != 0u ? texcoords.set1 : texcoords.set0, 1.0);
+  vec2 place = vec2(dot(uintBitsToFloat(a.xyz), uv1), dot(uintBitsToFloat(b.xyz), uv1));
+  return sample_texture(a.w & ~PPM_SECOND_TEXCOORD, place);
 }
 
 #endif

@@ -54,9 +54,10 @@
 #define PPM_BIND_PIXELS 33        // vec4: radiance of each pixel of the tile
 #define PPM_BIND_RADIUS_HISTOGRAM 34  // uint[PPM_RADIUS_BINS]
 #define PPM_BIND_SEARCH_ORDER 35      // uint: hit points, neighbours in space together
+#define PPM_BIND_HITS_4 37            // HitPoint's fifth plane, where the scene has such lobes
 
 // Batches of photon passes.
-#define PPM_BIND_BATCH 35  // BatchWords
+#define PPM_BIND_BATCH 36  // BatchWords
 
 // Counts that become dispatches (shared/dispatch_counts.h).
 #define PPM_BIND_DISPATCH_WORDS 38
@@ -68,7 +69,15 @@
 #define PPM_BIND_TEST_2 42
 #define PPM_BIND_TEST_3 43
 
-#define PPM_BINDING_LIMIT 48
+// What few scenes need; written by the host.
+#define PPM_BIND_TRIANGLE_DETAILS 44  // TriangleDetail, PPM_DETAIL_TEXELS each, leaf order
+#define PPM_BIND_TEXTURE_USES 45      // TextureUse, PPM_TEXTURE_USE_TEXELS each
+#define PPM_BIND_MEDIA 46             // MediumRecord
+#define PPM_BIND_LIGHT_MEDIA 47       // uint: media in which each light starts
+#define PPM_BIND_ENVIRONMENT 48       // radiance of each texel
+#define PPM_BIND_ENVIRONMENT_BINS 49  // alias table over texels
+
+#define PPM_BINDING_LIMIT 56
 
 // Specialisation constants that the device's profile sets in every kernel that declares them
 // (host/gpu/device_profile.hpp). Kernels' own ones are below.
@@ -78,5 +87,12 @@
 
 // Those that the scene decides (shaders/lib/scene_kinds.glsl).
 #define PPM_SPEC_ROUGH_GLOSS 110  // bool: some material has a rough glossy lobe
+#define PPM_SPEC_TEXTURES 111     // bool: some material has a texture
+#define PPM_SPEC_DETAILS 112      // bool: triangles have TRIANGLE_DETAILS
+#define PPM_SPEC_COVERAGE 113     // bool: some material is not opaque (alphaMode)
+#define PPM_SPEC_LAYERS 114       // bool: some material is a rough glass or has a clear coat
+#define PPM_SPEC_DISPERSION 115   // bool: some glass disperses
+#define PPM_SPEC_MEDIA 116        // bool: some material is solid
+#define PPM_SPEC_ENVIRONMENT 117  // bool: there is an environment
 
 #endif  // PPM_SHARED_BINDINGS_H

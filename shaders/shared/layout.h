@@ -53,25 +53,67 @@ struct TriangleShading {
   uvec2 color2;
 };  // 64
 
+// What few scenes need of a triangle. Tangents octahedral, 2 x 16 bits, the lowest of which is the
+// handedness instead: 1 for -1.
+#define PPM_DETAIL_TEXELS 3
+struct TriangleDetail {
+  vec2 texcoord0, texcoord1;  // of the second set, at the three corners
+  vec2 texcoord2;
+  uint tangent0, tangent1;
+  uint tangent2;
+  uint spare0, spare1, spare2;
+};  // 48
+
+// How a material uses a texture: s = dot(row_s, (u, v, 1)), t = dot(row_t, (u, v, 1)).
+#define PPM_TEXTURE_USE_TEXELS 2
+struct TextureUse {
+  vec3 row_s;
+  uint texture;  // index; bit 31: of the second set of coordinates
+  vec3 row_t;
+  uint spare;
+};  // 32
+
+#define PPM_SECOND_TEXCOORD 0x80000000u
+
+// Bits of MaterialRecord::use_mask.
+#define PPM_USE_BASE_COLOR 1u
+#define PPM_USE_METALLIC_ROUGHNESS 2u
+#define PPM_USE_NORMAL 4u
+#define PPM_USE_EMISSIVE 8u
+#define PPM_USE_TRANSMISSION 16u
+#define PPM_USE_SPECULAR 32u
+#define PPM_USE_SPECULAR_COLOR 64u
+#define PPM_USE_CLEARCOAT 128u
+#define PPM_USE_CLEARCOAT_ROUGHNESS 256u
+#define PPM_USE_CLEARCOAT_NORMAL 512u
+
 // Flags of a material.
 #define PPM_MATERIAL_DOUBLE_SIDED 1u  // emits from both sides
 #define PPM_MATERIAL_SOLID 2u         // transmission bends and attenuates; otherwise a thin sheet
+#define PPM_MATERIAL_MASK 4u          // alphaMode MASK
+#define PPM_MATERIAL_BLEND 8u         // alphaMode BLEND
+#define PPM_MATERIAL_UNLIT 16u
 
-#define PPM_MATERIAL_TEXELS 5
+#define PPM_MATERIAL_TEXELS 7
 struct MaterialRecord {
   vec3 base_color;
-  uint texture;  // 1 + index of the base colour texture, 0 for none
+  uint first_use;  // in TEXTURE_USES: one for each bit of use_mask, lowest bit first
   float metallic;
   float roughness;
   float transmission;
   float ior;
-  vec3 specular_f0;    // of the dielectric part at normal incidence
-  float specular_f90;  // idem at grazing incidence
-  vec3 emission;       // radiance
+  vec3 specular_f0;  // of the dielectric part at normal incidence: min(this, 1) * specular
+  float specular;    // idem at grazing incidence
+  vec3 emission;     // radiance
   uint flags;
   vec3 absorption;  // 1 / working length, of the medium inside when SOLID
-  uint spare;
-};  // 80
+  uint medium;      // 1 + index in MEDIA, 0 where not SOLID
+  float alpha, alpha_cutoff;
+  float normal_scale;
+  uint use_mask;  // PPM_USE_*
+  float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+  float dispersion;
+};  // 112
 
 // Wrap modes and filter as in scene.hpp: bits 0-1 wrap_s, 2-3 wrap_t, 4 nearest.
 struct TextureRecord {
@@ -370,6 +412,8 @@ namespace ppm::shared {
 static_assert(sizeof(BvhNode) == 64);
 static_assert(sizeof(TrianglePositions) == 48);
 static_assert(sizeof(TriangleShading) == 64);
+static_assert(sizeof(TriangleDetail) == 16 * PPM_DETAIL_TEXELS);
+static_assert(sizeof(TextureUse) == 16 * PPM_TEXTURE_USE_TEXELS);
 static_assert(sizeof(MaterialRecord) == 16 * PPM_MATERIAL_TEXELS);
 static_assert(sizeof(TextureRecord) == 16);
 static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);

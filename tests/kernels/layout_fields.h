@@ -16,8 +16,14 @@
   U1(r.normal0) U1(r.normal1) U1(r.normal2) U1(r.material) F2(r.texcoord0) F2(r.texcoord1) \
   F2(r.texcoord2) U2(r.color0) U2(r.color1) U2(r.color2)
 #define PPM_FIELDS_MATERIAL_RECORD(r) \
-  F3(r.base_color) U1(r.texture) F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) \
-  F3(r.specular_f0) F1(r.specular_f90) F3(r.emission) U1(r.flags) F3(r.absorption) U1(r.spare)
+  F3(r.base_color) U1(r.first_use) F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) \
+  F3(r.specular_f0) F1(r.specular) F3(r.emission) U1(r.flags) F3(r.absorption) U1(r.medium) \
+  F1(r.alpha) F1(r.alpha_cutoff) F1(r.normal_scale) U1(r.use_mask) F1(r.clearcoat) \
+  F1(r.clearcoat_roughness) F1(r.clearcoat_normal_scale) F1(r.dispersion)
+#define PPM_FIELDS_TRIANGLE_DETAIL(r) \
+  F2(r.texcoord0) F2(r.texcoord1) F2(r.texcoord2) U1(r.tangent0) U1(r.tangent1) U1(r.tangent2) \
+  U1(r.spare0) U1(r.spare1) U1(r.spare2)
+#define PPM_FIELDS_TEXTURE_USE(r) F3(r.row_s) U1(r.texture) F3(r.row_t) U1(r.spare)
 #define PPM_FIELDS_TEXTURE_RECORD(r) U1(r.width) U1(r.height) U1(r.first) U1(r.sampling)
 #define PPM_FIELDS_LIGHT_RECORD(r) \
   F3(r.position) U1(r.kind) F3(r.emission) F1(r.probability) F3(r.direction) U1(r.triangle) \
@@ -71,6 +77,8 @@
   RECORD(BvhNode, bvh_node, PPM_FIELDS_BVH_NODE) \
   RECORD(TrianglePositions, triangle_positions_record, PPM_FIELDS_TRIANGLE_POSITIONS) \
   RECORD(TriangleShading, triangle_shading_record, PPM_FIELDS_TRIANGLE_SHADING) \
+  RECORD(TriangleDetail, triangle_detail_record, PPM_FIELDS_TRIANGLE_DETAIL) \
+  RECORD(TextureUse, texture_use_record, PPM_FIELDS_TEXTURE_USE) \
   RECORD(MaterialRecord, material_record, PPM_FIELDS_MATERIAL_RECORD) \
   RECORD(TextureRecord, texture_record, PPM_FIELDS_TEXTURE_RECORD) \
   RECORD(LightRecord, light_record, PPM_FIELDS_LIGHT_RECORD) \

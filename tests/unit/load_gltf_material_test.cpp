@@ -164,7 +164,7 @@ TEST(LoadGltfMaterials, TexturesAreDecodedToLinearHalfFloats) {
   const std::vector<std::uint8_t> rgba{0,  10, 11, 0,  255, 128, 188, 255,  //
                                        64, 1,  2,  51, 200, 100, 50,  128};
   const Scene scene = load(with_texture(png_of(2, 2, rgba)));
-  ASSERT_EQ(scene.materials[0].base_color_texture, 0u);
+  ASSERT_EQ(scene.materials[0].base_color_texture.value().texture, 0u);
   const Texture& texture = scene.textures.at(0);
   ASSERT_EQ(texture.width, 2u);
   ASSERT_EQ(texture.height, 2u);

@@ -192,8 +192,8 @@ TEST(LoadGltf, NormalisedIntegers) {
       document.accessor<std::int8_t>({0, 0, 127, -128, 0, 0, 0, -127, 0}, "VEC3", true);
   const Scene scene = load(document);
   const auto& corners = scene.triangles[0].corners;
-  EXPECT_EQ(corners[0].color, glm::vec3(0.0f, 0.2f, 1.0f));
-  EXPECT_EQ(corners[1].color, glm::vec3(1.0f, 0.0f, 0.0f));
+  EXPECT_EQ(corners[0].color, glm::vec4(0.0f, 0.2f, 1.0f, 1.0f));
+  EXPECT_EQ(corners[1].color, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
   EXPECT_EQ(corners[1].texcoord, glm::vec2(1.0f, 0.2f));
   EXPECT_EQ(corners[0].normal, glm::vec3(0, 0, 1));
   EXPECT_EQ(corners[1].normal, glm::vec3(-1, 0, 0));
@@ -210,9 +210,9 @@ TEST(LoadGltf, VertexColoursOfEveryType) {
       document.accessor<float>({-1, 2, 0.5f, 0, 0, 0, 0, 0, 0}, "VEC3");
   Log log(Verbosity::quiet);
   const Scene scene = load(document, log);
-  EXPECT_EQ(scene.triangles[0].corners[0].color, glm::vec3(0.25f, 0.5f, 1.0f));
-  EXPECT_EQ(scene.triangles[1].corners[0].color, glm::vec3(1.0f, 0.0f, 0.2f));
-  EXPECT_EQ(scene.triangles[2].corners[0].color, glm::vec3(0.0f, 1.0f, 0.5f));
+  EXPECT_EQ(scene.triangles[0].corners[0].color, glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
+  EXPECT_EQ(scene.triangles[1].corners[0].color, glm::vec4(1.0f, 0.0f, 0.2f, 1.0f));
+  EXPECT_EQ(scene.triangles[2].corners[0].color, glm::vec4(0.0f, 1.0f, 0.5f, 1.0f));
   EXPECT_EQ(warnings_with(log, "colours"), 1u);
 }
 
