@@ -1,7 +1,15 @@
 # AddressSanitizer and UndefinedBehaviorSanitizer for all targets of the build tree.
 option(PPM_SANITIZE "Instrument everything with ASan and UBSan" OFF)
+option(PPM_FUZZ "Build the fuzzer of the loader, everything instrumented (needs clang)" OFF)
 
+if(PPM_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "PPM_FUZZ needs clang: add -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  set(PPM_SANITIZE ON)
+endif()
 if(PPM_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
   add_link_options(-fsanitize=address,undefined)
 endif()
