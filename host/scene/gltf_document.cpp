@@ -6,12 +6,12 @@
 #include <new>
 
 #include "failure.hpp"
+#include "gltf_container.hpp"
 #include "gltf_gate.hpp"
 
 namespace ppm::scene::gltf {
 namespace {
 
-constexpr std::uint64_t kLargestFile = (std::uint64_t{1} << 32) - 16;  // tinygltf counts in 32 bits
 constexpr std::uint64_t kLargestSize = std::uint64_t{1} << 48;
 constexpr std::size_t kLongestPrintable = 200;
 constexpr std::size_t kMostListed = 10;
@@ -81,8 +81,8 @@ std::string first_line(const std::string& text) {
   return printable(text.substr(0, text.find('\n')));
 }
 
-tinygltf::Model parse(const std::vector<unsigned char>& bytes, const std::filesystem::path& file,
-                      const Survey& survey) {
+tinygltf::Model parse(const std::vector<unsigned char>& bytes, bool is_binary,
+                      const std::filesystem::path& file, const Survey& survey) {
   Surroundings surroundings(file.parent_path());
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks(callbacks_for(surroundings));
@@ -93,7 +93,7 @@ tinygltf::Model parse(const std::vector<unsigned char>& bytes, const std::filesy
   try {
     const auto size = static_cast<unsigned int>(bytes.size());
     succeeded =
-        survey.is_binary
+        is_binary
             ? parser.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
             : parser.LoadASCIIFromString(&model, &error, &warning,
                                          reinterpret_cast<const char*>(bytes.data()), size, "");
@@ -161,13 +161,10 @@ std::string printable(std::string_view text) {
 }
 
 Document read_document(const std::filesystem::path& file, Log& log) {
-  std::vector<unsigned char> bytes;
-  const std::string error = read_file(file, kLargestFile, bytes);
-  if (!error.empty()) {
-    throw Failure(file.string(), "", error, "name a .gltf or .glb file that you may read");
-  }
-  const Survey found = survey(bytes, file.string());
-  Document document{file.string(), parse(bytes, file, found), &log, {}, {}};
+  const std::vector<unsigned char> bytes = read_container(file);
+  const JsonText json = json_text(bytes, file.string());
+  const Survey found = survey(json.text, json.is_binary, file.string());
+  Document document{file.string(), parse(bytes, json.is_binary, file, found), &log, {}, {}};
   refuse_required(document);
   document.extensions = used_extensions(found.extensions, document.model.extensionsRequired);
   warn_of_ignored(document);

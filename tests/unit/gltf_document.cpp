@@ -117,8 +117,10 @@ json& GltfDocument::triangle() {
 
 void GltfDocument::write_gltf(const std::filesystem::path& file) const {
   json whole = root;
-  if (!binary.empty() && !whole["buffers"][0].contains("uri")) {
-    whole["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(binary);
+  const json::json_pointer first("/buffers/0");
+  const bool has_place = whole["buffers"].is_array() && whole.contains(first);
+  if (!binary.empty() && has_place && whole[first].is_object() && !whole[first].contains("uri")) {
+    whole[first]["uri"] = "data:application/octet-stream;base64," + base64(binary);
   }
   write_file(file, whole.dump());
 }
