@@ -14,6 +14,7 @@
 #include "lib/counters.glsl"
 #include "lib/lights.glsl"
 #include "lib/surface.glsl"
+#include "shared/bsdf_record.h"
 #include "shared/camera.h"
 
 layout(push_constant, scalar) uniform PushBlock { EyePush push; };
@@ -23,6 +24,7 @@ layout(binding = PPM_BIND_HITS_0, scalar) writeonly buffer Hits0 { uvec4 hits_0[
 layout(binding = PPM_BIND_HITS_1, scalar) writeonly buffer Hits1 { uvec4 hits_1[]; };
 layout(binding = PPM_BIND_HITS_2, scalar) writeonly buffer Hits2 { uvec4 hits_2[]; };
 layout(binding = PPM_BIND_HITS_3, scalar) writeonly buffer Hits3 { uvec4 hits_3[]; };
+layout(binding = PPM_BIND_HITS_4, scalar) writeonly buffer Hits4 { uvec4 hits_4[]; };
 layout(binding = PPM_BIND_STATISTICS, scalar) writeonly buffer Statistics { vec4 statistics[]; };
 layout(binding = PPM_BIND_HIT_KEYS, scalar) writeonly buffer HitKeys { HitKey hit_keys[]; };
 layout(binding = PPM_BIND_CELL_COUNT, scalar) buffer Counts { uint counts[]; };
@@ -71,6 +73,13 @@ void stage(EyePath path, Surface surface, vec3 radiance, bool is_hit_point, bool
   uvec4 bsdf;
   uint bsdf_extra;
   pack_bsdf(surface.bsdf, bsdf, bsdf_extra);
+  uvec4 layers;
+  uint flags = min(events, 255u) << 8u;
+  if (kLayers) {
+    layers = pack_layers(surface.bsdf);
+    uint glass = surface.bsdf.thin_ior > 0.0 ? PPM_HIT_TRANSMITS : PPM_HIT_TRANSMITS | PPM_HIT_SOLID;
+    flags |= (has_rough_glass(surface.bsdf) ? glass : 0u) | (surface.front ? 0u : PPM_HIT_BACK);
+  }
   float cosine = dot(path.direction, surface.geometric_normal);
   // Never 0, which would mark it as light seen: pixels may be smaller than single precision can square.
   float footprint = max(footprint_radius(path.solid_angle, path.distance, cosine), kLeastFootprint);
@@ -90,9 +99,10 @@ void stage(EyePath path, Surface surface, vec3 radiance, bool is_hit_point, bool
     uint slot = atomicAdd(counters[PPM_COUNTER_HITS], 1u);
     if (slot >= push.hit_capacity) continue;  // the host sees the count and traces again
     hits_0[slot] = uvec4(floatBitsToUint(surface.position), light ? 0u : packed_geometric);
-    hits_1[slot] = uvec4(packed_directions, slot, light ? PPM_HIT_EMISSION : min(events, 255u) << 8u);
+    hits_1[slot] = uvec4(packed_directions, slot, light ? PPM_HIT_EMISSION : flags);
     hits_2[slot] = uvec4(floatBitsToUint(value), light ? 0u : bsdf_extra);
     hits_3[slot] = light ? uvec4(0u) : bsdf;
+    if (kLayers) hits_4[slot] = light ? uvec4(0u) : layers;
     // Until the first radius is found its place holds the footprint; light seen has none and is never searched.
     statistics[slot] = vec4(0.0, 0.0, 0.0, light ? 0.0 : square(footprint));
     hit_keys[slot] = HitKey(path.group, arrival, 2u * events + kind, path.code);
@@ -165,6 +175,22 @@ void queue(EyePath path) {
   if (slot < push.path_capacity) eye_out[slot] = path;
 }
 
+// A path that meets what bends its colours apart starts its segment anew in each channel that it carries. Once its
+// code is full it goes on in one of them, drawn by weight.
+void queue_channels(EyePath path) {
+  bool full = path.splits + 2u > kMaxSplits;
+  vec4 u = random_units(random_of(path.group), 1u + (path.state & 0xffffu));
+  vec3 weight = full ? drawn_channel(path.weight, u.w) : path.weight;
+  uint channel = 0u;
+  do {
+    EyePath part = path;
+    part.weight = in_channel(weight, channel);
+    part.code |= full ? 0u : (channel << 30u) >> path.splits;
+    part.splits += full ? 0u : 2u;
+    if (max_component(part.weight) > 0.0) queue(part);
+  } while (++channel < 3u);
+}
+
 // One segment of a path and what happens at its end; of the branches, the reflected is followed if there is one, else
 // the transmitted, but none when it is the `last` segment here: whatever is not followed is queued. False: it is over.
 bool advance(inout EyePath path, bool last, inout uint records) {
@@ -173,9 +199,17 @@ bool advance(inout EyePath path, bool last, inout uint records) {
   bool missed = hit.triangle == PPM_NO_TRIANGLE;
   if (missed) hit = Hit(0.0, 0u, vec2(0.0));  // any surface
   bool in_depth = !missed && (scene.max_depth == 0u || events < scene.max_depth);
+  Surface surface = surface_at(hit, path.direction);
+  if (kDispersion) {
+    if (!missed && disperses(surface) && channel_of(path.weight) == PPM_ALL_CHANNELS &&
+        max_component(path.weight) > 0.0) {
+      queue_channels(path);
+      return false;
+    }
+    show_to_channel(surface, path.weight);
+  }
   path.weight *= medium_transmittance(path.state, hit.t);
   path.distance += hit.t;
-  Surface surface = surface_at(hit, path.direction);
   vec3 radiance = missed ? miss_radiance(path.direction) : surface.emission;
   stage(path, surface, radiance, in_depth && is_non_specular(surface.bsdf), max_component(radiance) > 0.0, records);
   bool cut = in_depth && events >= scene.eye_bounce_cap;

@@ -23,8 +23,9 @@ layout(binding = PPM_BIND_PHOTON_FLUX, scalar) writeonly buffer PhotonFluxes { u
 
 bool hit_filter(uint triangle, vec2 barycentric) { return true; }
 
-// Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering.
+// Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering, to which a channel may have to be drawn.
 const uint kFirstScatteringBlock = 2u;
+const uint kFirstChannelBlock = 0x10000u;
 
 // Which pass of the batch a path belongs to: a quotient of numbers below 2^24, wrong by one at most before it is put
 // right. Integers are divided one lane after the other on lavapipe.
@@ -51,6 +52,10 @@ PhotonPath emit(uint index, RandomStream random) {
   path.state = 0u;
   path.flux = emission.flux / (light.record.probability * scene.total_power);
   path.skip = has_surface ? light.record.triangle : PPM_NO_TRIANGLE;
+  if (kLayers && has_surface) {
+    float coat = fetch_material(fetch_triangle(path.skip).material).clearcoat;
+    path.flux *= clearcoat_transmittance(Clearcoat(coat, 0.0), dot(emission.direction, emission.normal));
+  }
   return path;
 }
 
@@ -58,7 +63,9 @@ void store(PhotonPath path, Surface surface, uint events) {
   uint slot = atomicAdd(batch.photons[own_pass], 1u);
   if (slot >= push.photon_share) return;  // batch_check.comp sees the count
   slot += own_pass * push.photon_share;
-  Photon photon = Photon(surface.position, -path.direction, path.flux, surface.geometric_normal, events);
+  // Light from both sides may count at a hit point of rough glass, which must know which face it fell on.
+  vec3 normal = kLayers && !surface.front ? -surface.geometric_normal : surface.geometric_normal;
+  Photon photon = Photon(surface.position, -path.direction, path.flux, normal, events);
   photon_position[slot] = pack_photon_position(photon);
   photon_flux[slot] = pack_photon_flux(photon);
 }
@@ -66,6 +73,10 @@ void store(PhotonPath path, Surface surface, uint events) {
 // Scatters the path at the surface; false: it ends here.
 bool scatter(inout PhotonPath path, Surface surface, uint events, RandomStream random) {
   vec4 u = random_units(random, kFirstScatteringBlock + events);
+  if (kDispersion) {
+    if (disperses(surface)) path.flux = drawn_channel(path.flux, random_units(random, kFirstChannelBlock + events).x);
+    show_to_channel(surface, path.flux);
+  }
   vec3 wo = to_local(-path.direction, surface.shading_normal);
   BsdfSample chosen = bsdf_sample(surface.bsdf, wo, u.xyz, PPM_TRANSPORT_FLUX);
   if (chosen.forward_pdf_solid_angle <= 0.0) return false;

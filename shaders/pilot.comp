@@ -34,6 +34,8 @@ Found search(uint hit) {
   uvec4 plane0 = PPM_FETCH(hits_0, hit);
   vec3 position = uintBitsToFloat(plane0.xyz);
   vec3 normal = unpack_direction(plane0.w);
+  uint flags = 0u;
+  if (kLayers) flags = PPM_FETCH(hits_1, hit).w;
   float radius2 = square(push.radius);
   uint enough = PPM_PILOT_ENOUGH * push.wanted;
   CellBox box = cells_within(push.grid, position, radius2);
@@ -51,7 +53,7 @@ Found search(uint hit) {
         bool valid = nearby != 0u;
         uvec4 flux = PPM_FETCH(sorted_flux, valid ? first + uint(findLSB(nearby)) : 0u);
         nearby &= nearby - 1u;
-        bool counts = valid && accepts_packed_photon(normal, flux.x, flux.y);
+        bool counts = valid && accepts(normal, flags, flux.x, flux.y);
         found.count += counts ? 1u : 0u;
       } while (nearby != 0u);
       first += 32u;

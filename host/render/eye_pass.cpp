@@ -35,13 +35,6 @@ std::uint64_t queue_capacity(const Settings& settings, std::uint64_t hits) {
   return std::min(hits, std::max(paths, kLeastQueue));
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> with_generate(const SceneTraits& traits,
-                                                                   std::uint32_t generate) {
-  auto constants = traits.specialisation();
-  constants.emplace_back(kGenerate, generate);
-  return constants;
-}
-
 }  // namespace
 
 std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device) {
@@ -50,10 +43,11 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
 }
 
 EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits)
-    : start(device, shaders::eye, with_generate(traits, 1)),
-      go_on(device, shaders::eye, with_generate(traits, 0)),
+    : start(device, shaders::eye, traits.specialisation({{kGenerate, 1}})),
+      go_on(device, shaders::eye, traits.specialisation({{kGenerate, 0}})),
       scatter(device, shaders::eye_scatter),
-      order(device, shaders::eye_order) {}
+      order(device, shaders::eye_order),
+      layers(traits.layers) {}
 
 EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
                  const Settings& settings)
@@ -108,11 +102,11 @@ EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
 }
 
 void EyePass::reserve(HitTile& tile, std::uint64_t hits) {
-  const auto plane = [&](const char* name) {
-    return gpu::Buffer(device_, name, hits * 16, gpu::Usage::storage_and_texels);
+  const auto plane = [&](const char* name, bool needed = true) {
+    return gpu::Buffer(device_, name, needed ? hits * 16 : 16, gpu::Usage::storage_and_texels);
   };
   tile.planes = {plane("hit points 0"), plane("hit points 1"), plane("hit points 2"),
-                 plane("hit points 3")};
+                 plane("hit points 3"), plane("hit points 4", kernels_.layers)};
   tile.statistics = plane("statistics");
   if (!keys_ || keys_.bytes() < hits * sizeof(shared::HitKey)) {
     keys_ = {};
@@ -192,7 +186,7 @@ void EyePass::tighten(HitTile& tile) {
     device_.run([&](gpu::Recorder& recorder) { recorder.copy(loose, tight, tile.hits * 16ull); });
     loose = std::move(tight);
   };
-  for (gpu::Buffer& plane : tile.planes) copy_of(plane);
+  for (std::size_t i = 0; i < (kernels_.layers ? 5 : 4); ++i) copy_of(tile.planes[i]);
   copy_of(tile.statistics);
 }
 

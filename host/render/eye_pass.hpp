@@ -20,6 +20,7 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
 struct EyeKernels {
   EyeKernels(gpu::Device& device, const SceneTraits& traits);
   gpu::Kernel start, go_on, scatter, order;
+  bool layers;  ///< hit points have a fifth plane
 };
 
 /// Queues and sorting memory of the eye pass; needed only while tiles are made.

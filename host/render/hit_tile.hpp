@@ -17,7 +17,7 @@ struct HitTile {
   std::uint32_t max_pixel_hits = 0;  ///< most records of one pixel, if above PPM_RESOLVE_SLICE
 
   // Geometry: written once by the eye pass.
-  std::array<gpu::Buffer, 4> planes;
+  std::array<gpu::Buffer, 5> planes;  ///< the fifth holds next to nothing in scenes without layers
   gpu::Buffer sample_start;  ///< first entry in `order` of each (pixel, sample), and the end
   gpu::Buffer order;         ///< record of each place in canonical order
 
@@ -36,6 +36,7 @@ struct HitTile {
     table.set(PPM_BIND_HITS_1, planes[1]);
     table.set(PPM_BIND_HITS_2, planes[2]);
     table.set(PPM_BIND_HITS_3, planes[3]);
+    table.set(PPM_BIND_HITS_4, planes[4]);
   }
   void bind(gpu::BindingTable& table) const {
     bind_geometry(table);

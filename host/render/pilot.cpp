@@ -25,10 +25,11 @@ shared::PilotPush push_of(const Pilot::Round& round) {
 
 }  // namespace
 
-Pilot::Pilot(gpu::Device& device, std::span<const HitTile> tiles)
+Pilot::Pilot(gpu::Device& device, const SceneTraits& traits, std::span<const HitTile> tiles)
     : device_(device),
       tiles_(tiles),
-      decide_at_once_(device, shaders::pilot, {{kDecide, 1}}),
+      traits_(traits),
+      decide_at_once_(device, shaders::pilot, traits.specialisation({{kDecide, 1}})),
       counters_(device) {
   const auto list = [&](const char* name, const HitTile& tile) {
     return gpu::Buffer(device, name, tile.hits * 4ull, gpu::Usage::storage);
@@ -72,7 +73,7 @@ std::optional<std::uint64_t> Pilot::decide(const PhotonGrid& grid, const Round& 
 }
 
 void Pilot::count(const PhotonGrid& grid, const Round& round) {
-  if (!count_) count_.emplace(device_, shaders::pilot);
+  if (!count_) count_.emplace(device_, shaders::pilot, traits_.specialisation());
   shared::PilotPush push = push_of(round);
   push.grid = grid.constants();
   for (std::size_t i = 0; i < tiles_.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "counters.hpp"
 #include "hit_tile.hpp"
 #include "photon_grid.hpp"
+#include "scene_traits.hpp"
 
 namespace ppm::render {
 
@@ -16,7 +17,7 @@ namespace ppm::render {
 class Pilot {
  public:
   /// The tiles' hit points must have the mark of Estimator::set_radii; they must outlive this.
-  Pilot(gpu::Device& device, std::span<const HitTile> tiles);
+  Pilot(gpu::Device& device, const SceneTraits& traits, std::span<const HitTile> tiles);
 
   /// Hit points without a radius look for photons within `radius` (working units), half of the
   /// round before.
@@ -46,6 +47,7 @@ class Pilot {
 
   gpu::Device& device_;
   std::span<const HitTile> tiles_;
+  SceneTraits traits_;
   gpu::Kernel decide_at_once_;
   std::optional<gpu::Kernel> count_, decide_;  ///< made when photons do come in chunks
   std::vector<Undecided> undecided_;

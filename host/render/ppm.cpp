@@ -121,7 +121,7 @@ bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted)
 bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
   // The pilot's photons are a set of their own: radii must not depend on the photons that are
   // estimated with them. All rounds see the same ones, as many as a pass has.
-  Pilot pilot(device_, tiles_);
+  Pilot pilot(device_, traits_of(scene_), tiles_);
   float radius = kLargestRadius * buffers_.constants().bounding_radius;
   std::uint64_t undecided = 0;
   bool whole = false;  // all photons are in the grid

@@ -14,17 +14,32 @@ bool may_have_rough_gloss(const scene::Material& material) {
          (material.metallic > 0.0f || material.specular > 0.0f);
 }
 
+bool may_have_glass(const scene::Material& material) {
+  return material.transmission > 0.0f && material.metallic < 1.0f;
+}
+
+bool may_have_layers(const scene::Material& material) {
+  const bool rough = material.roughness >= PPM_DELTA_ROUGHNESS;
+  return (may_have_glass(material) && rough) || material.clearcoat > 0.0f;
+}
+
+bool may_disperse(const scene::Material& material) {
+  return may_have_glass(material) && material.solid && material.dispersion > 0.0f;
+}
+
 }  // namespace
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> SceneTraits::specialisation() const {
-  return {{PPM_SPEC_ROUGH_GLOSS, rough_gloss},
-          {PPM_SPEC_TEXTURES, textures},
-          {PPM_SPEC_DETAILS, details},
-          {PPM_SPEC_COVERAGE, coverage},
-          {PPM_SPEC_LAYERS, layers},
-          {PPM_SPEC_DISPERSION, dispersion},
-          {PPM_SPEC_MEDIA, media},
-          {PPM_SPEC_ENVIRONMENT, environment}};
+SceneTraits::Constants SceneTraits::specialisation(Constants own) const {
+  const Constants of_scene = {{PPM_SPEC_ROUGH_GLOSS, rough_gloss},
+                              {PPM_SPEC_TEXTURES, textures},
+                              {PPM_SPEC_DETAILS, details},
+                              {PPM_SPEC_COVERAGE, coverage},
+                              {PPM_SPEC_LAYERS, layers},
+                              {PPM_SPEC_DISPERSION, dispersion},
+                              {PPM_SPEC_MEDIA, media},
+                              {PPM_SPEC_ENVIRONMENT, environment}};
+  own.insert(own.end(), of_scene.begin(), of_scene.end());
+  return own;
 }
 
 SceneTraits traits_of(const scene::Scene& scene) {
@@ -35,6 +50,8 @@ SceneTraits traits_of(const scene::Scene& scene) {
   traits.rough_gloss = any(may_have_rough_gloss);
   traits.textures = !scene.textures.empty();
   traits.details = !scene.details.empty();
+  traits.layers = any(may_have_layers);
+  traits.dispersion = any(may_disperse);
   traits.media = any([](const scene::Material& material) { return material.solid; });
   return traits;
 }

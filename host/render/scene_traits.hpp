@@ -22,7 +22,8 @@ struct SceneTraits {
   bool environment = false;
 
   /// The same as constants of the kernels (shaders/lib/scene_kinds.glsl).
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> specialisation() const;
+  using Constants = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  Constants specialisation(Constants own = {}) const;  ///< added to the kernel's own
 };
 
 SceneTraits traits_of(const scene::Scene& scene);

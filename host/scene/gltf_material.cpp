@@ -10,8 +10,6 @@ namespace {
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 28;  // 2 GiB of half floats
 constexpr double kLargestFactor = 1e20;  // for factors without an upper limit: products stay finite
 constexpr double kLargestIor = 1e3;
-constexpr float kSmoothRoughness =
-    0.03f;  // rougher glass looks different from the smooth one drawn
 
 std::span<float> components(glm::vec3& v) {
   return {glm::value_ptr(v), 3};
@@ -71,9 +69,6 @@ void read_transmission(const MaterialElement& element, Material& material) {
   if (!extension) return;
   material.transmission = extension->factor("transmissionFactor", 0.0, 0.0, 1.0);
   warn_of_member(*extension, "transmissionTexture", extension->has("transmissionTexture"));
-  if (material.transmission > 0.0f && material.roughness > kSmoothRoughness) {
-    extension->warn("rough transmission", "rough transmission is rendered smooth");
-  }
 }
 
 void read_volume(const MaterialElement& element, Material& material, double length_scale) {

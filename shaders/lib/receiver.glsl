@@ -5,11 +5,13 @@
 #include "lib/counters.glsl"
 #include "lib/scene_kinds.glsl"
 #include "lib/search.glsl"
+#include "shared/bsdf_record.h"
 #include "shared/ppm.h"
 
 layout(binding = PPM_BIND_SCENE_CONSTANTS, scalar) uniform SceneBlock { SceneConstants scene; };
 PPM_TEXELS(PPM_BIND_HITS_2, hits_2);
 PPM_TEXELS(PPM_BIND_HITS_3, hits_3);
+PPM_TEXELS(PPM_BIND_HITS_4, hits_4);
 PPM_TEXELS(PPM_BIND_STATISTICS, statistics);
 layout(binding = PPM_BIND_GATHER_SUMS, scalar) buffer GatherSums { GatherSum gather_sums[]; };
 
@@ -18,6 +20,7 @@ struct Receiver {
   vec3 geometric_normal;
   vec3 shading_normal, tangent, bitangent;
   int most_events;       // of a photon that counts, scattering events of the eye path taken off
+  uint flags;            // PPM_HIT_*
   BsdfTowards bsdf;
 };
 
@@ -32,9 +35,12 @@ Receiver fetch_receiver(uint hit) {
   vec3 outgoing = unpack_direction(plane1.y);
   vec3 wo = vec3(dot(outgoing, receiver.tangent), dot(outgoing, receiver.bitangent),
                  dot(outgoing, receiver.shading_normal));
+  receiver.flags = plane1.w;
   uint events = (plane1.w >> 8u) & 0xffu;
   receiver.most_events = scene.max_depth == 0u ? 0x7fffffff : int(scene.max_depth) - int(events) - 1;
-  receiver.bsdf = bsdf_towards(unpack_bsdf(PPM_FETCH(hits_3, hit), PPM_FETCH(hits_2, hit).w), wo);
+  Bsdf bsdf = unpack_bsdf(PPM_FETCH(hits_3, hit), PPM_FETCH(hits_2, hit).w);
+  if (kLayers) bsdf = with_layers(bsdf, PPM_FETCH(hits_4, hit));
+  receiver.bsdf = bsdf_towards(bsdf, wo);
   return receiver;
 }
 
@@ -56,14 +62,17 @@ void add_photon(Receiver receiver, uvec4 packed, bool found, inout Sums sums) {
   Photon photon = unpack_photon_flux(packed);
   vec3 wi = vec3(dot(photon.incident, receiver.tangent), dot(photon.incident, receiver.bitangent),
                  dot(photon.incident, receiver.shading_normal));
-  bool accepted = accepts_packed_photon(receiver.geometric_normal, packed.x, packed.y);
+  bool accepted = accepts(receiver.geometric_normal, receiver.flags, packed.x, packed.y);
   bool short_enough = int(photon.events) <= receiver.most_events;
   bool counts = found && accepted && short_enough;
   sums.count += counts ? 1u : 0u;
   float factor = merge_normal_factor(wi.z, dot(photon.incident, photon.normal));
   bool clamped = counts && factor > PPM_MAX_NORMAL_FACTOR;
   sums.clamped += clamped ? 1u : 0u;
-  factor = counts && wi.z > 0.0 ? min(factor, PPM_MAX_NORMAL_FACTOR) : 0.0;
+  // Both normals must have the photon on the same side.
+  bool shows = wi.z > 0.0;
+  if (kLayers) shows = wi.z != 0.0 && shows == (dot(photon.incident, receiver.geometric_normal) > 0.0);
+  factor = counts && shows ? min(factor, PPM_MAX_NORMAL_FACTOR) : 0.0;
   precise vec3 term = bsdf_eval_towards(receiver.bsdf, wi) * (photon.flux * factor);
   bool fits = term.x + term.y + term.z < PPM_FIXED_LIMIT;  // false for NaN, too
   sums.overflow += counts && !fits ? 1u : 0u;

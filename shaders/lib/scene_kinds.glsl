@@ -11,6 +11,7 @@ layout(constant_id = PPM_SPEC_TEXTURES) const bool kTextures = true;
 layout(constant_id = PPM_SPEC_DETAILS) const bool kDetails = false;
 layout(constant_id = PPM_SPEC_COVERAGE) const bool kCoverage = false;
 layout(constant_id = PPM_SPEC_LAYERS) const bool kLayers = false;
+#define PPM_LAYERS kLayers
 layout(constant_id = PPM_SPEC_DISPERSION) const bool kDispersion = false;
 layout(constant_id = PPM_SPEC_MEDIA) const bool kMedia = true;
 layout(constant_id = PPM_SPEC_ENVIRONMENT) const bool kEnvironment = false;

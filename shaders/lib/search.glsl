@@ -2,6 +2,7 @@
 #ifndef PPM_LIB_SEARCH_GLSL
 #define PPM_LIB_SEARCH_GLSL
 
+#include "lib/scene_kinds.glsl"
 #include "lib/texels.glsl"
 #include "shared/bsdf.h"
 #include "shared/grid.h"
@@ -75,6 +76,12 @@ uint photons_within(GridConstants grid, CellRow row, vec3 position, float radius
     found |= found_it ? 1u << (i - first) : 0u;
   } while (++i < last);
   return found;
+}
+
+// Whether a photon of a hit point's disc counts there. packed: two words of the photon's plane SORTED_FLUX.
+bool accepts(vec3 hit_normal, uint hit_flags, uint packed_incident, uint packed_normal) {
+  if (kLayers) return accepts_packed_photon_of_layers(hit_normal, hit_flags, packed_incident, packed_normal);
+  return accepts_packed_photon(hit_normal, packed_incident, packed_normal);
 }
 
 #endif

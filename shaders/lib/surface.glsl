@@ -7,6 +7,7 @@
 #include "lib/texture.glsl"
 #include "lib/traverse.glsl"
 #include "shared/bsdf.h"
+#include "shared/bsdf/dispersion.h"
 
 PPM_TEXELS(PPM_BIND_TRIANGLE_SHADING, triangle_shading);
 
@@ -20,6 +21,7 @@ struct Surface {
   bool front;          // the path comes from the front side
   vec3 emission;       // radiance given off towards the path
   Bsdf bsdf;
+  vec3 channel_eta;    // bsdf.eta of each channel, with kDispersion
 };
 
 // The lobes of a material with a given base colour. `front`: seen from outside.
@@ -39,6 +41,9 @@ Bsdf make_bsdf(MaterialRecord material, vec3 base_color, bool front) {
   bool solid = (material.flags & PPM_MATERIAL_SOLID) != 0u;
   bsdf.eta = !solid ? 1.0 : front ? material.ior : 1.0 / material.ior;
   bsdf.thin_ior = solid ? 0.0 : material.ior;
+  float coat_roughness = material.clearcoat_roughness;
+  bsdf.coat =
+      Clearcoat(material.clearcoat, coat_roughness < PPM_DELTA_ROUGHNESS ? 0.0 : square(coat_roughness));
   return bsdf;
 }
 
@@ -82,7 +87,27 @@ Surface surface_at(Hit hit, vec3 direction) {
   bool emits = surface.front || (material.flags & PPM_MATERIAL_DOUBLE_SIDED) != 0u;
   surface.emission = emits ? material.emission : vec3(0.0);
   surface.bsdf = make_bsdf(material, base_color, surface.front);
+  if (kLayers) {
+    surface.emission *= clearcoat_transmittance(surface.bsdf.coat, -dot(surface.geometric_normal, direction));
+  }
+  surface.channel_eta = vec3(surface.bsdf.eta);
+  if (kDispersion && (material.flags & PPM_MATERIAL_SOLID) != 0u) {
+    vec3 ior = vec3(dispersed_ior(material.ior, material.dispersion, 0u), material.ior,
+                    dispersed_ior(material.ior, material.dispersion, 2u));
+    surface.channel_eta = surface.front ? ior : 1.0 / ior;
+  }
   return surface;
+}
+
+// Whether the surface bends the colours of a path apart.
+bool disperses(Surface surface) {
+  return kDispersion && surface.bsdf.glass > 0.0 && surface.channel_eta.x != surface.channel_eta.z;
+}
+
+// The surface as a path that carries this weight or flux meets it.
+void show_to_channel(inout Surface surface, vec3 weight) {
+  uint channel = channel_of(weight);
+  if (kDispersion && channel != PPM_ALL_CHANNELS) surface.bsdf.eta = surface.channel_eta[channel];
 }
 
 // What is left of light after `distance` in the medium of a path's state (bits 16-31: 1 + material, 0 outside).

@@ -4,14 +4,19 @@
 // Directions are in the shading frame with the normal on the side of wo, and both point away from
 // the surface. No value includes a cosine unless its name says so; densities are per solid angle.
 //
-// Specular here means a delta lobe: the mirror reflection of a smooth surface, and glass. All other
-// lobes are "non-specular": a surface that has any of them stores hit points and photons [HOJ08
-// section 3.1].
+// Specular here means a delta lobe: the mirror reflection of a smooth surface or coat, and smooth
+// glass. All other lobes are "non-specular": a surface that has any of them stores hit points and
+// photons [HOJ08 section 3.1].
+//
+// From top to bottom: a clearcoat; below it, side by side, the glossy lobe, glass (smooth or as
+// rough as the gloss) and the diffuse base.
 #ifndef PPM_SHARED_BSDF_H
 #define PPM_SHARED_BSDF_H
 
+#include "shared/bsdf/clearcoat.h"
 #include "shared/bsdf/diffuse.h"
 #include "shared/bsdf/ggx.h"
+#include "shared/bsdf/rough_dielectric.h"
 
 PPM_NAMESPACE_BEGIN
 
@@ -19,50 +24,24 @@ PPM_NAMESPACE_BEGIN
 // alpha^2) = 1e5, more than progressive radii resolve in any reasonable time.
 #define PPM_DELTA_ROUGHNESS 0.03f
 
-// Kernels may define this as a specialisation constant: without rough gloss in the scene its code
-// need not be run.
+// Kernels may define these as specialisation constants: what no surface of the scene has need not
+// be run. Layers are rough glass and clearcoats.
 #ifndef PPM_ROUGH_GLOSS
 #define PPM_ROUGH_GLOSS true
+#endif
+#ifndef PPM_LAYERS
+#define PPM_LAYERS true
 #endif
 
 struct Bsdf {
   DiffuseLobe diffuse;
   GgxLobe glossy;   // a mirror when alpha is 0
-  float glass;      // share of the surface that is glass
+  float glass;      // share of the surface that is glass, as rough as the glossy lobe
   vec3 glass_tint;  // of what glass transmits
   float eta;        // index beyond the surface over index on the side of wo; 1 for a thin sheet
   float thin_ior;   // index of a thin sheet, 0 if not one
+  Clearcoat coat;
 };
-
-// What a non-specular evaluation reads at a hit point, in 160 bits: ten 16-bit unorms.
-// The one place that knows this format.
-PPM_FN void pack_bsdf(Bsdf bsdf, PPM_OUT(uvec4) words, PPM_OUT(uint) extra) {
-  words = uvec4(packUnorm2x16(vec2(bsdf.diffuse.albedo.x, bsdf.diffuse.albedo.y)),
-                packUnorm2x16(vec2(bsdf.diffuse.albedo.z, bsdf.glossy.f90)),
-                packUnorm2x16(vec2(bsdf.glossy.f0.x, bsdf.glossy.f0.y)),
-                packUnorm2x16(vec2(bsdf.glossy.f0.z, sqrt(bsdf.glossy.alpha))));
-  extra = packUnorm2x16(vec2(bsdf.diffuse.coat_f0, bsdf.diffuse.coat_f90));
-}
-
-PPM_FN Bsdf unpack_bsdf(uvec4 words, uint extra) {
-  vec2 a = unpackUnorm2x16(words.x);
-  vec2 b = unpackUnorm2x16(words.y);
-  vec2 c = unpackUnorm2x16(words.z);
-  vec2 d = unpackUnorm2x16(words.w);
-  vec2 e = unpackUnorm2x16(extra);
-  Bsdf bsdf;
-  bsdf.diffuse.albedo = vec3(a.x, a.y, b.x);
-  bsdf.diffuse.coat_f0 = e.x;
-  bsdf.diffuse.coat_f90 = e.y;
-  bsdf.glossy.f0 = vec3(c.x, c.y, d.x);
-  bsdf.glossy.f90 = b.y;
-  bsdf.glossy.alpha = d.y * d.y;
-  bsdf.glass = 0.0f;
-  bsdf.glass_tint = vec3(0.0f);
-  bsdf.eta = 1.0f;
-  bsdf.thin_ior = 0.0f;
-  return bsdf;
-}
 
 PPM_FN bool has_glossy(Bsdf bsdf) {
   return bsdf.glossy.f90 > 0.0f || max_component(bsdf.glossy.f0) > 0.0f;
@@ -74,26 +53,43 @@ PPM_FN bool has_rough_gloss(Bsdf bsdf) {
   return PPM_ROUGH_GLOSS && bsdf.glossy.alpha > 0.0f && has_glossy(bsdf);
 }
 
+PPM_FN bool has_rough_glass(Bsdf bsdf) {
+  bool shows = bsdf.thin_ior > 0.0f || max(bsdf.eta, 1.0f / bsdf.eta) >= PPM_LEAST_ROUGH_ETA;
+  return PPM_LAYERS && bsdf.glass > 0.0f && bsdf.glossy.alpha > 0.0f && shows;
+}
+PPM_FN bool has_clearcoat(Bsdf bsdf) {
+  return PPM_LAYERS && bsdf.coat.strength > 0.0f;
+}
+PPM_FN bool has_rough_clearcoat(Bsdf bsdf) {
+  return has_clearcoat(bsdf) && bsdf.coat.alpha > 0.0f;
+}
+
 // Whether the surface has a non-specular component.
 PPM_FN bool is_non_specular(Bsdf bsdf) {
-  return max_component(bsdf.diffuse.albedo) > 0.0f || has_rough_gloss(bsdf);
+  return max_component(bsdf.diffuse.albedo) > 0.0f || has_rough_gloss(bsdf) ||
+         has_rough_glass(bsdf) || has_rough_clearcoat(bsdf);
 }
 
-// The non-specular lobes. Zero unless both directions are above the surface.
-PPM_FN vec3 bsdf_eval(Bsdf bsdf, vec3 wo, vec3 wi) {
-  if (wo.z <= 0.0f || wi.z <= 0.0f) return vec3(0.0f);
-  vec3 f = diffuse_eval(bsdf.diffuse, wo.z, wi.z);
-  if (has_rough_gloss(bsdf)) f += ggx_eval(bsdf.glossy, wo, wi);
-  return f;
-}
-
-// The same for many wi and one wo: what does not depend on wi is worked out once.
+// The non-specular lobes, prepared for one wo and many wi: what does not depend on wi is worked out
+// once.
 struct BsdfTowards {
   vec3 wo;
   vec3 diffuse;  // diffuse_base
   float coat_f0, coat_f90;
   GgxLobe glossy;  // alpha is 0 without rough gloss
+  RoughDielectric glass;
+  float glass_share;  // 0 without rough glass
+  vec3 glass_tint;    // share included
+  Clearcoat clearcoat;
 };
+
+PPM_FN RoughDielectric rough_glass(Bsdf bsdf) {
+  RoughDielectric lobe;
+  lobe.alpha = bsdf.glossy.alpha;
+  lobe.eta = bsdf.eta;
+  lobe.thin_ior = bsdf.thin_ior;
+  return lobe;
+}
 
 PPM_FN BsdfTowards bsdf_towards(Bsdf bsdf, vec3 wo) {
   BsdfTowards result;
@@ -103,18 +99,50 @@ PPM_FN BsdfTowards bsdf_towards(Bsdf bsdf, vec3 wo) {
   result.coat_f90 = bsdf.diffuse.coat_f90;
   result.glossy = bsdf.glossy;
   if (wo.z <= 0.0f || !has_rough_gloss(bsdf)) result.glossy.alpha = 0.0f;
+  result.glass = rough_glass(bsdf);
+  result.glass_share = wo.z > 0.0f && has_rough_glass(bsdf) ? bsdf.glass : 0.0f;
+  result.glass_tint = bsdf.glass_tint * result.glass_share;
+  result.clearcoat = bsdf.coat;
+  if (wo.z <= 0.0f || !has_clearcoat(bsdf)) result.clearcoat.strength = 0.0f;
+  if (has_clearcoat(bsdf)) {
+    result.diffuse *= diffuse_under_clearcoat(bsdf.diffuse, bsdf.coat, wo.z);
+  }
   return result;
 }
 
-// bsdf_eval(bsdf, wo, wi) for wi.z > 0.
+// Without layers 0 unless wi.z > 0; with them wi may come from beyond the surface, and what rough
+// glass lets through is told for radiance towards wo. wi.z is not 0.
 PPM_FN vec3 bsdf_eval_towards(BsdfTowards bsdf, vec3 wi) {
   DiffuseLobe coat;
   coat.albedo = vec3(0.0f);
   coat.coat_f0 = bsdf.coat_f0;
   coat.coat_f90 = bsdf.coat_f90;
-  vec3 f = bsdf.diffuse * coat_transmittance(coat, wi.z);
-  if (PPM_ROUGH_GLOSS && bsdf.glossy.alpha > 0.0f) f += ggx_eval(bsdf.glossy, bsdf.wo, wi);
-  return f;
+  vec3 diffuse = bsdf.diffuse * coat_transmittance(coat, wi.z);
+  vec3 facets = vec3(0.0f);
+  if (PPM_ROUGH_GLOSS && bsdf.glossy.alpha > 0.0f) facets = ggx_eval(bsdf.glossy, bsdf.wo, wi);
+  if (!PPM_LAYERS) return diffuse + facets;
+
+  bool through = wi.z < 0.0f;
+  if (through) diffuse = facets = vec3(0.0f);
+  if (bsdf.glass_share > 0.0f) {
+    vec3 f = rough_dielectric_eval(bsdf.glass, bsdf.glass_tint, bsdf.wo, wi);
+    facets += through ? f : f * bsdf.glass_share;
+  }
+  if (bsdf.clearcoat.strength > 0.0f) {
+    diffuse *= clearcoat_transmittance(bsdf.clearcoat, wi.z);
+    facets *= under_clearcoat(bsdf.clearcoat, bsdf.wo.z, wi.z);
+    if (bsdf.clearcoat.alpha > 0.0f && !through) {
+      facets += ggx_eval(clearcoat_lobe(bsdf.clearcoat), bsdf.wo, wi);
+    }
+  }
+  return diffuse + facets;
+}
+
+// The same for one pair of directions. Zero unless wo is above the surface.
+PPM_FN vec3 bsdf_eval(Bsdf bsdf, vec3 wo, vec3 wi) {
+  bool through = wi.z < 0.0f && has_rough_glass(bsdf);
+  if (wo.z <= 0.0f || (wi.z <= 0.0f && !through)) return vec3(0.0f);
+  return bsdf_eval_towards(bsdf_towards(bsdf, wo), wi);
 }
 
 // The specular lobes seen along wo: what reflection and transmission carry (Fresnel terms and tint
@@ -133,7 +161,7 @@ PPM_FN SpecularLobes specular_lobes(Bsdf bsdf, float cos_o) {
     lobes.reflected =
         bsdf.glossy.f0 + (vec3(bsdf.glossy.f90) - bsdf.glossy.f0) * schlick_weight(cos_o);
   }
-  if (bsdf.glass > 0.0f) {
+  if (bsdf.glass > 0.0f && !has_rough_glass(bsdf)) {
     float fresnel;
     if (bsdf.thin_ior > 0.0f) {
       float unused;
@@ -144,6 +172,12 @@ PPM_FN SpecularLobes specular_lobes(Bsdf bsdf, float cos_o) {
     }
     lobes.reflected += vec3(bsdf.glass * fresnel);
     lobes.transmitted = bsdf.glass_tint * (bsdf.glass * (1.0f - fresnel));
+  }
+  if (has_clearcoat(bsdf)) {
+    float passes = clearcoat_transmittance(bsdf.coat, cos_o);
+    lobes.reflected *= passes;
+    lobes.transmitted *= under_clearcoat(bsdf.coat, cos_o, lobes.cos_transmitted);
+    if (bsdf.coat.alpha == 0.0f) lobes.reflected += vec3(1.0f - passes);
   }
   return lobes;
 }
@@ -158,7 +192,9 @@ PPM_FN vec3 specular_transmission(Bsdf bsdf, vec3 wo, float cos_transmitted) {
 
 // How the lobes share the random choice: by what each is expected to carry away.
 struct LobeChoice {
-  float diffuse, glossy, reflection, transmission;  // probabilities, sum 1 (or all 0: black)
+  float diffuse, glossy, reflection, transmission;  // probabilities, sum with the next 1 (or all
+                                                    // 0: black)
+  float glass, coat;                                // rough ones
 };
 
 PPM_FN LobeChoice lobe_choice(Bsdf bsdf, SpecularLobes specular, float cos_o) {
@@ -170,25 +206,63 @@ PPM_FN LobeChoice lobe_choice(Bsdf bsdf, SpecularLobes specular, float cos_o) {
     float f0 = mean_component(bsdf.glossy.f0);
     choice.glossy = f0 + (bsdf.glossy.f90 - f0) * weight;
   }
+  choice.glass = 0.0f;
+  choice.coat = 0.0f;
+  if (has_rough_glass(bsdf)) {
+    float reflectance = facet_reflectance(rough_glass(bsdf), cos_o);
+    choice.glass =
+        bsdf.glass * (reflectance + (1.0f - reflectance) * mean_component(bsdf.glass_tint));
+  }
+  if (has_clearcoat(bsdf)) {
+    float passes = clearcoat_transmittance(bsdf.coat, cos_o);
+    choice.diffuse *= passes;
+    choice.glossy *= passes;
+    choice.glass *= passes;
+    if (bsdf.coat.alpha > 0.0f) choice.coat = 1.0f - passes;
+  }
   choice.reflection = mean_component(specular.reflected);
   choice.transmission = mean_component(specular.transmitted);
   float sum = choice.diffuse + choice.glossy + choice.reflection + choice.transmission;
+  if (PPM_LAYERS) sum += choice.glass + choice.coat;
   float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
   choice.diffuse *= scale;
   choice.glossy *= scale;
   choice.reflection *= scale;
   choice.transmission *= scale;
+  choice.glass *= scale;
+  choice.coat *= scale;
   return choice;
 }
 
 // Density with which bsdf_sample, given wo, draws the non-specular direction wi (choice of lobe
-// included). The reverse density is bsdf_pdf_solid_angle(bsdf, wi, wo).
+// included).
 PPM_FN float bsdf_pdf_solid_angle(Bsdf bsdf, vec3 wo, vec3 wi) {
-  if (wo.z <= 0.0f || wi.z <= 0.0f) return 0.0f;
+  bool through = wi.z < 0.0f && has_rough_glass(bsdf);
+  if (wo.z <= 0.0f || (wi.z <= 0.0f && !through)) return 0.0f;
   LobeChoice choice = lobe_choice(bsdf, specular_lobes(bsdf, wo.z), wo.z);
   float pdf = choice.diffuse * cosine_hemisphere_pdf_solid_angle(wi.z);
   if (choice.glossy > 0.0f) pdf += choice.glossy * ggx_pdf_solid_angle(bsdf.glossy.alpha, wo, wi);
+  if (!PPM_LAYERS) return pdf;
+  if (choice.coat > 0.0f) pdf += choice.coat * ggx_pdf_solid_angle(bsdf.coat.alpha, wo, wi);
+  if (through) pdf = 0.0f;
+  if (choice.glass > 0.0f) {
+    float tint = mean_component(bsdf.glass_tint);
+    pdf += choice.glass * rough_dielectric_pdf_solid_angle(rough_glass(bsdf), tint, wo, wi);
+  }
   return pdf;
+}
+
+// The surface as met from beyond it, along the same path.
+PPM_FN Bsdf other_side(Bsdf bsdf) {
+  Bsdf result = bsdf;
+  result.eta = 1.0f / bsdf.eta;
+  return result;
+}
+
+// Density of wo given wi: the path walked backwards, from the other side if wi lies there.
+PPM_FN float bsdf_reverse_pdf_solid_angle(Bsdf bsdf, vec3 wo, vec3 wi) {
+  if (wi.z > 0.0f) return bsdf_pdf_solid_angle(bsdf, wi, wo);
+  return bsdf_pdf_solid_angle(other_side(bsdf), vec3(wi.x, wi.y, -wi.z), vec3(wo.x, wo.y, -wo.z));
 }
 
 #define PPM_TRANSPORT_RADIANCE \
@@ -239,8 +313,7 @@ PPM_FN BsdfSample bsdf_sample(Bsdf bsdf, vec3 wo, vec3 u, uint transport) {
     if (transport == PPM_TRANSPORT_RADIANCE) result.weight /= bsdf.eta * bsdf.eta;
     result.forward_pdf_solid_angle = choice.transmission;
     // The way back starts on the other side, where other lobes may share the choice differently.
-    Bsdf beyond = bsdf;
-    beyond.eta = 1.0f / bsdf.eta;
+    Bsdf beyond = other_side(bsdf);
     SpecularLobes back = specular_lobes(beyond, specular.cos_transmitted);
     result.reverse_pdf_solid_angle =
         lobe_choice(beyond, back, specular.cos_transmitted).transmission;
@@ -249,14 +322,26 @@ PPM_FN BsdfSample bsdf_sample(Bsdf bsdf, vec3 wo, vec3 u, uint transport) {
     return result;
   }
   threshold += choice.glossy;
+  uint through = 0u;
   vec3 wi = u.x < threshold ? ggx_sample(bsdf.glossy.alpha, wo, vec2(u.y, u.z))
                             : sample_cosine_hemisphere(vec2(u.y, u.z));
+  if (choice.coat > 0.0f && u.x >= threshold && u.x < threshold + choice.coat) {
+    wi = ggx_sample(bsdf.coat.alpha, wo, vec2(u.y, u.z));
+  }
+  threshold += choice.coat;
+  if (choice.glass > 0.0f && u.x >= threshold && u.x < threshold + choice.glass) {
+    float within = clamp((u.x - threshold) / choice.glass, 0.0f, 0.99999994f);
+    wi = rough_dielectric_sample(rough_glass(bsdf), mean_component(bsdf.glass_tint), wo,
+                                 vec3(within, u.y, u.z), through);
+  }
   float pdf = bsdf_pdf_solid_angle(bsdf, wo, wi);
-  if (wi.z <= 0.0f || pdf <= 0.0f) return result;
+  if ((wi.z <= 0.0f) != (through == 1u) || pdf <= 0.0f) return result;
   result.wi = wi;
-  result.weight = bsdf_eval(bsdf, wo, wi) * (wi.z / pdf);
+  result.weight = bsdf_eval(bsdf, wo, wi) * (abs(wi.z) / pdf);
+  if (through == 1u && transport == PPM_TRANSPORT_FLUX) result.weight *= bsdf.eta * bsdf.eta;
   result.forward_pdf_solid_angle = pdf;
-  result.reverse_pdf_solid_angle = bsdf_pdf_solid_angle(bsdf, wi, wo);
+  result.reverse_pdf_solid_angle = bsdf_reverse_pdf_solid_angle(bsdf, wo, wi);
+  result.transmission = through;
   return result;
 }
 

@@ -307,7 +307,7 @@ struct EyePush {
 #define PPM_FILTER_TENT 1u
 #define PPM_FILTER_GAUSSIAN 2u
 
-// A hit point. Four planes of 16 bytes.
+// A hit point. Four planes of 16 bytes, and a fifth in scenes with rough glass or clearcoats.
 struct HitPoint {
   vec3 position;
   uint geometric_normal;  // octahedral 2 x 16; both normals on the side of the eye path
@@ -317,8 +317,9 @@ struct HitPoint {
   uint flags;       // PPM_HIT_*, bits 8-15: scattering events of the eye path before it
   vec3 weight;      // of its radiance in the pixel; emission: the radiance itself
   uint bsdf_extra;
-  uvec4 bsdf;  // with bsdf_extra: the non-specular lobes, see pack_bsdf in bsdf.h
-};             // 64
+  uvec4 bsdf;    // with bsdf_extra: the non-specular lobes, see bsdf_record.h
+  uvec4 layers;  // more of them, see pack_layers
+};               // 80
 
 // Where a hit point belongs: the canonical order is by group, then by (order, code).
 struct HitKey {
@@ -329,6 +330,10 @@ struct HitKey {
 };               // 16
 
 #define PPM_HIT_EMISSION 1u  // not a hit point but light seen: weight is what it adds to the pixel
+// In scenes with layers:
+#define PPM_HIT_TRANSMITS 2u  // rough glass: light that arrives beyond it counts, too
+#define PPM_HIT_SOLID 4u      // and it is the surface of a solid
+#define PPM_HIT_BACK 8u       // seen from behind
 
 struct EyeOrderPush {
   uint first, count;
@@ -422,7 +427,7 @@ static_assert(sizeof(PhotonPath) == 48);
 static_assert(sizeof(BatchWords) == 4 * (4 + PPM_TRACE_ROUNDS + 1 + 2 * PPM_BATCH_LIMIT));
 static_assert(sizeof(GridConstants) == 36);
 static_assert(sizeof(EyePath) == 64);
-static_assert(sizeof(HitPoint) == 64);
+static_assert(sizeof(HitPoint) == 80);
 static_assert(sizeof(GatherSum) == 40);
 }  // namespace ppm::shared
 #endif

@@ -5,6 +5,7 @@
 #define PPM_SHARED_PHOTON_H
 
 #include "shared/geometry.h"
+#include "shared/layout.h"
 
 PPM_NAMESPACE_BEGIN
 
@@ -12,7 +13,8 @@ struct Photon {
   vec3 position;
   vec3 incident;  // unit, pointing back to where the photon came from
   vec3 flux;      // incident flux, cosine not included (it is in the density of photons)
-  vec3 normal;    // geometric, on the side the photon arrived on
+  vec3 normal;    // geometric, on the side the photon arrived on; in scenes with layers that of the
+                  // front side
   uint events;    // scattering events before, saturates at 255
 };
 
@@ -67,6 +69,24 @@ PPM_FN bool accepts_packed_photon(vec3 hit_normal, uint incident, uint photon_no
   float least = PPM_LEAST_NORMAL_COSINE * PPM_LEAST_NORMAL_COSINE * dot(normal, normal);
   return cosine > 0.0f && cosine * cosine > least &&
          dot(unpack_octahedral(incident), hit_normal) > 0.0f;
+}
+
+// The same in scenes with layers. hit_flags: PPM_HIT_*. Where the hit point shows what lies beyond
+// it, photons from there count, too, if they fell on the same face: those on the other face of a
+// thin plate of glass did not.
+PPM_FN bool accepts_packed_photon_of_layers(vec3 hit_normal, uint hit_flags, uint incident,
+                                            uint photon_front) {
+  vec3 front = unpack_octahedral(photon_front);
+  vec3 from = unpack_octahedral(incident);
+  float cosine = dot(front, hit_normal);
+  float least = PPM_LEAST_NORMAL_COSINE * PPM_LEAST_NORMAL_COSINE * dot(front, front);
+  float side = dot(from, hit_normal);  // positive: the eye's
+  // The surface on the side of arrival and the hit point's on the same side face the same way.
+  float alike = cosine * dot(from, front) * side;
+  bool through = side < 0.0f && (hit_flags & PPM_HIT_TRANSMITS) != 0u;
+  float facing = (hit_flags & PPM_HIT_BACK) != 0u ? -cosine : cosine;
+  bool same_face = (hit_flags & PPM_HIT_SOLID) == 0u || facing > 0.0f;
+  return alike > 0.0f && cosine * cosine > least && (side > 0.0f || through) && same_face;
 }
 
 PPM_NAMESPACE_END

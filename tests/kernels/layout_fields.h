@@ -56,7 +56,7 @@
   U1(r.first) U1(r.count) U1(r.pass) U1(r.tile_first) U1(r.samples) U1(r.filter_kind) U1(r.hit_capacity) U1(r.path_capacity) F1(r.split_weight) U1(r.bounces)
 #define PPM_FIELDS_HIT_POINT(r) \
   F3(r.position) U1(r.geometric_normal) U1(r.shading_normal) U1(r.outgoing) U1(r.statistics) \
-  U1(r.flags) F3(r.weight) U1(r.bsdf_extra) U4(r.bsdf)
+  U1(r.flags) F3(r.weight) U1(r.bsdf_extra) U4(r.bsdf) U4(r.layers)
 #define PPM_FIELDS_HIT_KEY(r) U1(r.group) U1(r.arrival) U1(r.order) U1(r.code)
 #define PPM_FIELDS_EYE_ORDER_PUSH(r) U1(r.first) U1(r.count) U1(r.samples)
 #define PPM_FIELDS_GATHER_SUM(r) \

@@ -63,7 +63,7 @@ class Pilot : public DeviceTest {
     SyntheticEstimator estimator(device(), hits.size());
     estimator->set_radii(tile, 0.0f, 0.0f);
     render::PhotonGrid grid(device(), vec3(-1.0f), vec3(1.0f), photons.size());
-    render::Pilot pilot(device(), std::span(&tile, 1));
+    render::Pilot pilot(device(), {}, std::span(&tile, 1));
     float radius = largest;
     for (std::uint32_t index = 0; index < rounds; ++index, radius *= 0.5f) {
       const render::Pilot::Round round{index, index + 1 == rounds, radius};

@@ -10,7 +10,7 @@
 #include "estimator.hpp"
 #include "hit_tile.hpp"
 #include "kernel.hpp"
-#include "shared/bsdf.h"
+#include "shared/bsdf_record.h"
 #include "shared/layout.h"
 #include "shared/photon.h"
 
@@ -58,7 +58,8 @@ inline render::HitTile make_tile(gpu::Device& device, std::span<const SyntheticH
   tile.pixels = tile.hits = static_cast<std::uint32_t>(hits.size());
   tile.max_pixel_hits = 1;
   tile.planes = {upload("hits 0", Words(planes[0])), upload("hits 1", Words(planes[1])),
-                 upload("hits 2", Words(planes[2])), upload("hits 3", Words(planes[3]))};
+                 upload("hits 2", Words(planes[2])), upload("hits 3", Words(planes[3])),
+                 gpu::Buffer(device, "hits 4", 16, gpu::Usage::storage_and_texels)};
   tile.statistics = upload("statistics", std::span<const glm::vec4>(statistics));
   tile.sample_start = upload("starts", std::span<const std::uint32_t>(starts));
   tile.order = upload("order", std::span<const std::uint32_t>(starts));

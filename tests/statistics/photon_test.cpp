@@ -106,5 +106,40 @@ TEST(AcceptsPhoton, OnTheSideAndSurfaceThatTheEyeSees) {
   EXPECT_FALSE(accepts(up, up, leaning(0.09f)));
 }
 
+// Photons told by their surface's front, as scenes with layers keep them. A glass plate: its upper
+// face looks up, its lower one down, and they may be closer than a disc.
+TEST(AcceptsPhoton, OfTheSameFaceWhereLightComesThrough) {
+  const vec3 up(0, 0, 1), down(0, 0, -1);
+  const vec3 slant = normalize(vec3(0.6f, 0.0f, 0.8f));
+  const auto accepts_of = [](uint flags, vec3 hit_normal, vec3 incident, vec3 front) {
+    return accepts_packed_photon_of_layers(hit_normal, flags, pack_direction(incident),
+                                           pack_direction(front));
+  };
+  const uint solid = PPM_HIT_TRANSMITS | PPM_HIT_SOLID;
+  // The upper face from above.
+  EXPECT_TRUE(accepts_of(solid, up, slant, up));
+  EXPECT_TRUE(accepts_of(solid, up, -slant, up)) << "from inside";
+  EXPECT_FALSE(accepts_of(solid, up, slant, down)) << "from inside on the lower face";
+  EXPECT_FALSE(accepts_of(solid, up, -slant, down)) << "from below on the lower face";
+  // The same from inside.
+  EXPECT_TRUE(accepts_of(solid | PPM_HIT_BACK, down, slant, up));
+  EXPECT_TRUE(accepts_of(solid | PPM_HIT_BACK, down, -slant, up));
+  EXPECT_FALSE(accepts_of(solid | PPM_HIT_BACK, down, -slant, down));
+  // A thin sheet has no inside: its triangles may be turned either way.
+  for (const vec3& front : {up, down}) {
+    EXPECT_TRUE(accepts_of(PPM_HIT_TRANSMITS, up, slant, front));
+    EXPECT_TRUE(accepts_of(PPM_HIT_TRANSMITS, up, -slant, front));
+  }
+  // Opaque ones reflect what falls on the side that is seen, as without layers.
+  for (const uint flags : {0u, uint{PPM_HIT_BACK}}) {
+    for (const vec3& front : {up, down}) {
+      EXPECT_TRUE(accepts_of(flags, up, slant, front));
+      EXPECT_FALSE(accepts_of(flags, up, -slant, front));
+    }
+  }
+  EXPECT_FALSE(accepts_of(solid, up, slant, vec3(1, 0, 0))) << "around an edge";
+  EXPECT_FALSE(accepts_of(solid, up, -slant, vec3(-0.999f, 0, 0.05f))) << "around an edge";
+}
+
 }  // namespace
 }  // namespace ppm::shared

@@ -281,8 +281,6 @@ std::vector<Unread> unread_features() {
        "specularTexture"},
       {"thickness texture", in_extension("KHR_materials_volume", {{"thicknessTexture", texture}}),
        "thicknessTexture"},
-      {"rough glass", in_extension("KHR_materials_transmission", {{"transmissionFactor", 1}}),
-       "rough transmission"},
       {"specular-glossiness", in_extension("KHR_materials_ior", {{"ior", 0}}),
        "specular-glossiness"},
       {"unknown extension", in_extension("KHR_materials_sheen", json::object()),

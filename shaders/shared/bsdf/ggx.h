@@ -56,15 +56,20 @@ PPM_FN float ggx_pdf_solid_angle(float alpha, vec3 wo, vec3 wi) {
   return ggx_distribution(alpha, half_vector) / (4.0f * wo.z * (1.0f + ggx_lambda(alpha, wo)));
 }
 
-// A direction reflected about a visible normal. May point below the surface (z <= 0): no light
-// then.
-PPM_FN vec3 ggx_sample(float alpha, vec3 wo, vec2 u) {
+// A facet's normal as seen from wo: density G1(o) <o, h> D(h) / wo.z per steradian of h.
+PPM_FN vec3 ggx_sample_normal(float alpha, vec3 wo, vec2 u) {
   vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
   float z = (1.0f - u.x) * (1.0f + stretched.z) - stretched.z;
   float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
   vec2 circle = unit_circle(u.y);
   vec3 cap = vec3(r * circle.x, r * circle.y, z) + stretched;
-  vec3 normal = normalize(vec3(alpha * cap.x, alpha * cap.y, max(cap.z, 0.0f)));
+  return normalize(vec3(alpha * cap.x, alpha * cap.y, max(cap.z, 0.0f)));
+}
+
+// A direction reflected about a visible normal. May point below the surface (z <= 0): no light
+// then.
+PPM_FN vec3 ggx_sample(float alpha, vec3 wo, vec2 u) {
+  vec3 normal = ggx_sample_normal(alpha, wo, u);
   return normal * (2.0f * dot(wo, normal)) - wo;
 }
 
