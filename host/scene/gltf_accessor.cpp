@@ -6,8 +6,11 @@
 namespace ppm::scene::gltf {
 namespace {
 
-// Zeros need no bytes behind them; a file may not claim more of them than this.
-constexpr std::uint64_t kMostUnbacked = std::uint64_t{1} << 24;
+// Zeros need no bytes behind them. But sparse accessors, which are mostly zeros, stand beside
+// others of as many elements, which take at least a bit each even where they are compressed. So a
+// file may claim these few of them, and some more for each byte of its buffers.
+constexpr std::uint64_t kMostUnbacked = std::uint64_t{1} << 12;
+constexpr std::uint64_t kMostUnbackedPerByte = 16;
 
 std::uint64_t size_of(ComponentType type) {
   switch (type) {
@@ -64,6 +67,15 @@ double load(const std::uint8_t* bytes) {
   T value;
   std::memcpy(&value, bytes, sizeof value);  // glTF and the hosts of Vulkan are little-endian
   return static_cast<double>(value);
+}
+
+bool may_be_unbacked(const Place& place, std::uint64_t count) {
+  std::uint64_t most = kMostUnbacked;
+  if (count <= most) return true;
+  for (const tinygltf::Buffer& buffer : place.model().buffers) {
+    most += kMostUnbackedPerByte * buffer.data.size();
+  }
+  return count <= most;
 }
 
 double load_component(const Items& items, std::uint64_t i, int component) {
@@ -151,7 +163,7 @@ void Accessor::read_base(const Element<tinygltf::Accessor>& element) {
   if (element->bufferView != -1) {
     base_ = items_of({element, element->bufferView, element->byteOffset}, base_.type, count_, size,
                      true);
-  } else if (count_ > kMostUnbacked) {
+  } else if (!may_be_unbacked(element, count_)) {
     element.fail("claims " + std::to_string(count_) + " elements without a bufferView",
                  "give it a bufferView");
   }

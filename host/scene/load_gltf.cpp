@@ -101,7 +101,7 @@ void bake_triangles(const std::vector<Instance>& instances, const Place& root, S
   scene.findings.triangles_without_area = left_out.without_area;
   scene.findings.triangles_too_small = left_out.too_small;
   if (left_out.without_area > 0) {
-    log.note(scene.file + ": " + std::to_string(left_out.without_area) +
+    log.warn(scene.file + ": " + std::to_string(left_out.without_area) +
              " triangles without area were left out");
   }
   if (left_out.too_small > 0) {

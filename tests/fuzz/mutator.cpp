@@ -1,6 +1,7 @@
 // How libFuzzer changes inputs: the container stays sound most of the time, so that mutations reach
 // what lies in it.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -65,6 +66,40 @@ Bytes joined(Parts parts) {
   return out;
 }
 
+/// CRC-32 of PNG (ISO 3309).
+std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
+  std::uint32_t crc = 0xffffffffu;
+  for (std::size_t i = 0; i < size; ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+  }
+  return ~crc;
+}
+
+std::uint32_t big_word(const std::uint8_t* at) {
+  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 |
+         at[3];
+}
+
+/// Rights the checksums of all PNG files in `bytes`, without which decoders look no further.
+void mend_pngs(Bytes& bytes) {
+  constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  auto found = std::search(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
+  while (found != bytes.end()) {
+    std::size_t at = static_cast<std::size_t>(found - bytes.begin()) + kMagic.size();
+    while (at + 12 <= bytes.size()) {
+      const std::size_t length = big_word(&bytes[at]);
+      if (length > bytes.size() - at - 12) break;
+      const std::uint32_t crc = crc32(&bytes[at + 4], length + 4);
+      for (std::size_t i = 0; i < 4; ++i) {
+        bytes[at + 8 + length + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i) & 0xffu);
+      }
+      at += 12 + length;
+    }
+    found = std::search(found + 1, bytes.end(), kMagic.begin(), kMagic.end());
+  }
+}
+
 std::string text_of(const json& document) {
   return document.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -107,6 +142,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     scramble(parts.text, max_size);
   } else if (choice < 7) {
     scramble(parts.binary, max_size);
+    if (random() % 4 != 0) mend_pngs(parts.binary);
   } else if (!bend_text(parts.text, random)) {
     scramble(parts.text, max_size);
   }

@@ -175,6 +175,14 @@ TEST(LoadGltfHostile, BrokenContainersAreRefused) {
       {"cut", Bytes(good.begin(), good.end() - 20), "cut short"},
       {"long chunk", long_chunk, "a chunk claims"},
       {"no json", text("{\"asset\":"), "cannot be read"},
+      {"no number", text("{\"asset\": NaN}"), "cannot be read"},
+      {"infinity", text("{\"asset\": -Infinity}"), "cannot be read"},
+      {"comment", text("{/* glTF */ \"asset\": {\"version\": \"2.0\"}}"), "cannot be read"},
+      {"quotes", text("{'asset': {}}"), "cannot be read"},
+      {"two documents", text("{\"asset\": {\"version\": \"2.0\"}} {}"), "cannot be read"},
+      {"utf-16", text(std::string("{\0\"\0a\0", 6)), "cannot be read"},
+      {"zeros", Bytes(1000, 0), "neither"},
+      {"web page", text("<!DOCTYPE html>"), "neither"},
       {"trailing comma", text("{\"asset\": {},}"), "cannot be read"},
       {"not utf-8", text("{\"asset\": \"\xff\xfe\"}"), "cannot be read"},
       {"infinite number", text("{\"asset\": {\"version\": 1e999}}"), "cannot be read"},
@@ -194,6 +202,50 @@ TEST(LoadGltfHostile, BrokenContainersAreRefused) {
   expect_refused(folder / "none.gltf", "no such file", "missing");
   std::filesystem::create_directory(folder / "folder.gltf");
   expect_refused(folder / "folder.gltf", "not a regular file", "folder");
+}
+
+TEST(LoadGltfHostile, EveryBeginningOfAContainerIsCutShort) {
+  const Bytes good = everything().glb();
+  const TemporaryFolder folder;
+  for (std::size_t size = 4; size < good.size(); size += size < 30 ? 1 : 37) {
+    write_file(folder / "a.glb", Bytes(good.begin(), good.begin() + static_cast<long>(size)));
+    const std::string message = refusal(folder / "a.glb");
+    ASSERT_NE(message.find(size < 20 ? "ends within its header" : "is cut short"),
+              std::string::npos)
+        << size << ": " << message;
+  }
+}
+
+// What is legal is no reason to refuse, however odd.
+TEST(LoadGltfHostile, DeepAndWideGraphsLoad) {
+  GltfDocument deep, wide;
+  for (GltfDocument* document : {&deep, &wide}) document->triangle();
+  json children = json::array();
+  for (int i = 1; i <= 100000; ++i) {
+    deep.append("nodes", {{"children", {i - 1}}});
+    wide.append("nodes", json::object());
+    children.push_back(i);
+  }
+  wide.root["nodes"][0]["children"] = children;
+  for (const GltfDocument* document : {&deep, &wide}) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(load(*document).triangles.size(), 1u);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(spent.count(), kMostSeconds);
+  }
+}
+
+// A node without extent shows nothing; the others do. Triangles without area are counted.
+TEST(LoadGltfHostile, SingularTransformsHideTheirMeshes) {
+  for (const json& scale : {json{0, 0, 0}, json{1, 0, 0}, json{1, 1e-300, 1}}) {
+    GltfDocument document;
+    document.triangle();
+    document.append("nodes", {{"mesh", 0}, {"scale", scale}});
+    Log log(Verbosity::quiet);
+    EXPECT_EQ(load(document, log).triangles.size(), 1u) << scale;
+    EXPECT_EQ(warnings_with(log, "1 triangles without area were left out"), 1u) << scale;
+    EXPECT_EQ(log.warnings().size(), 1u);
+  }
 }
 
 TEST(LoadGltfHostile, BrokenImagesAreRefused) {

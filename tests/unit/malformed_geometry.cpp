@@ -207,12 +207,15 @@ std::vector<Malformed> malformed_geometry() {
        "meshes[0].primitives[0].material", "refers to materials[1]"},
       {"negative material", set("/meshes/0/primitives/0/material", -1),
        "meshes[0].primitives[0].material", "is negative"},
+      {"more zeros than bytes",
+       set("/accessors/1", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 16777215}}),
+       "accessors[1]", "without a bufferView"},
       {"triangle bomb",
        [](json& root) {
-         // Zeros need no bytes: 5.6 million triangles, seven times over.
-         root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 16777215}};
+         // Zeros need no bytes: 1365 triangles, 25000 times over.
+         root["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4095}};
          root["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}}}};
-         for (int i = 0; i < 7; ++i) {
+         for (int i = 0; i < 25000; ++i) {
            root["nodes"].push_back({{"mesh", 0}});
            root["scenes"][0]["nodes"].push_back(root["nodes"].size() - 1);
          }
