@@ -86,7 +86,7 @@ TEST_F(CliFiles, WhatIsNoFileIsNoScene) {
   expect_refused(path("circle.glb"), 1, "circle.glb: cannot be read: ");
   expect_refused(path("sound.glb/inside.glb"), 1, "inside.glb: there is no such file");
   expect_refused(std::string(5000, 'x') + ".glb", 1, "cannot be read: ");
-  expect_refused("", 1, "there is no such file");
+  expect_refused("", 2, "no scene file is given");
 }
 
 TEST_F(CliFiles, UnreadableScene) {
@@ -128,18 +128,18 @@ TEST_F(CliFiles, ScenesWithDashes) {
   expect_refused("-", 1, "-: there is no such file", in_folder);
   expect_refused("-sound.glb", 2, "-sound.glb", in_folder);
   const Result result =
-      Program(render({"-o", path("o.hdr"), "--quiet", "--", "-sound.glb"}), in_folder).finish();
+      Program(render({"-o", path("o.hdr"), "--quiet", "./-sound.glb"}), in_folder).finish();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(folder_.names().contains("o.hdr"));
 }
 
-/// A file system of two pages, where the right to mount it is there.
+/// A file system of one page, where the right to mount it is there.
 class SmallDisk {
  public:
   explicit SmallDisk(std::string folder) : folder_(std::move(folder)) {
     std::filesystem::create_directory(folder_);
-    is_there_ = mount("ppm-vk-test", folder_.c_str(), "tmpfs", 0, "size=8k") == 0;
+    is_there_ = mount("ppm-vk-test", folder_.c_str(), "tmpfs", 0, "size=4k") == 0;
   }
   ~SmallDisk() {
     if (is_there_) umount2(folder_.c_str(), MNT_DETACH);
@@ -157,15 +157,15 @@ class SmallDisk {
 TEST_F(CliFiles, FullDiskTakesNoPartOfAPicture) {
   const SmallDisk disk(path("disk"));
   if (!disk.is_there()) GTEST_SKIP() << "nothing can be mounted here";
-  write_text(folder_ / "disk/o.exr", "old");
-  for (const char* name : {"disk/o.exr", "disk/new.exr"}) {
+  write_text(folder_ / "disk/o.hdr", "old");
+  for (const char* name : {"disk/o.hdr", "disk/new.hdr"}) {
     const Result result = run(render({path("sound.glb"), "-o", path(name), "--quiet"}));
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_TRUE(result.err.starts_with("ppm-vk: error: " + path(name))) << result.err;
     EXPECT_NE(result.err.find("free some space"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
   }
-  EXPECT_EQ(file_text(folder_ / "disk/o.exr"), "old");
+  EXPECT_EQ(file_text(folder_ / "disk/o.hdr"), "old");
   int files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path("disk"))) {
     ++files;
