@@ -150,9 +150,18 @@ std::string Surroundings::read(const std::string& uri, std::vector<unsigned char
   if (leads_outside(path) || uri.find('\\') != std::string::npos) {
     return "leads outside the folder of the glTF file";
   }
-  std::string error = read_file(folder_ / path, budget_, bytes);
-  if (error.empty()) budget_ -= bytes.size();
-  return error;
+  const std::string error = read_file(folder_ / path, budget_, bytes);
+  if (!error.empty()) return error;
+  budget_ -= bytes.size();
+  const std::size_t position = files_read_++;
+  if (position >= buffer_lengths_.size()) return "";
+  const std::uint64_t length = buffer_lengths_[position];
+  if (bytes.size() < length) {
+    return "has " + std::to_string(bytes.size()) + " bytes, but byteLength claims " +
+           std::to_string(length);
+  }
+  bytes.resize(length);
+  return "";
 }
 
 JsonText json_text(const std::vector<unsigned char>& bytes, const std::string& file) {

@@ -20,13 +20,17 @@ std::vector<unsigned char> read_container(const std::filesystem::path& file);
 /// The files that URIs name: those beside or below the glTF file.
 class Surroundings {
  public:
-  explicit Surroundings(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// `buffer_lengths`: what the first files to be read must hold at least, and are cut to.
+  Surroundings(std::filesystem::path folder, std::vector<std::uint64_t> buffer_lengths)
+      : folder_(std::move(folder)), buffer_lengths_(std::move(buffer_lengths)) {}
 
   /// As read_file, of a decoded relative URI. All files together hold at most 4 GiB.
   std::string read(const std::string& uri, std::vector<unsigned char>& bytes);
 
  private:
   std::filesystem::path folder_;
+  std::vector<std::uint64_t> buffer_lengths_;
+  std::size_t files_read_ = 0;
   std::uint64_t budget_ = std::uint64_t{1} << 32;
 };
 

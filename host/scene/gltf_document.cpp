@@ -83,7 +83,7 @@ std::string first_line(const std::string& text) {
 
 tinygltf::Model parse(const std::vector<unsigned char>& bytes, bool is_binary,
                       const std::filesystem::path& file, const Survey& survey) {
-  Surroundings surroundings(file.parent_path());
+  Surroundings surroundings(file.parent_path(), survey.external_lengths);
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks(callbacks_for(surroundings));
   parser.SetImageLoader(keep_encoded, nullptr);

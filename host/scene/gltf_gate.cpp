@@ -140,6 +140,12 @@ Survey survey_of(const json& root) {
       result.extensions.insert(name.get<std::string>());
     }
   }
+  if (!root.contains("buffers")) return result;
+  for (const json& buffer : root["buffers"]) {
+    const auto uri = buffer.find("uri");
+    if (uri == buffer.end() || uri->get_ref<const std::string&>().starts_with("data:")) continue;
+    result.external_lengths.push_back(buffer["byteLength"].get<std::uint64_t>());
+  }
   return result;
 }
 

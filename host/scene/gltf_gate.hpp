@@ -6,13 +6,15 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ppm::scene::gltf {
 
 /// What was found out about a document that passed.
 struct Survey {
-  std::map<std::string, std::size_t> lengths;  ///< of the top-level arrays
-  std::set<std::string> extensions;            ///< that are used anywhere or declared
+  std::map<std::string, std::size_t> lengths;   ///< of the top-level arrays
+  std::set<std::string> extensions;             ///< that are used anywhere or declared
+  std::vector<std::uint64_t> external_lengths;  ///< of the buffers in files beside, in their order
 };
 
 /// Checks the JSON of a .gltf or, where `is_binary`, a .glb file for what tinygltf would not

@@ -126,7 +126,7 @@ TEST(LoadGltfHostile, UrisThatLeadElsewhereAreRefused) {
       {"missing.bin", "no such file"},
       {"folder.bin", "not a regular file"},
       {"elsewhere.bin", "no such file"},
-      {"short.bin", "requestedBytes 36, but got 8"},
+      {"short.bin", "has 8 bytes, but byteLength claims 36"},
       {"data:application/octet-stream;base64", "scheme"},
       {"data:text/plain,hello", "scheme"},
       {"data:application/octet-stream;base64,", "Failed to decode"},
@@ -142,6 +142,25 @@ TEST(LoadGltfHostile, UrisThatLeadElsewhereAreRefused) {
     expect_refused(folder / "a.gltf", fragment, uri);
   }
   std::filesystem::current_path(before);
+}
+
+// glTF lets a file be longer than its buffer; percent-encoded names and folders below are files,
+// too.
+TEST(LoadGltfHostile, FilesBesideMayBeLonger) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a folder");
+  GltfDocument document;
+  document.triangle();
+  document.root["buffers"].push_back(
+      {{"byteLength", 4}, {"uri", "data:application/octet-stream;base64,AAAAAA=="}});
+  document.root["buffers"].push_back({{"byteLength", 4}, {"uri", "last.bin"}});
+  document.root["buffers"][0]["uri"] = "a%20folder/100%25.bin";
+  Bytes longer = document.binary;
+  longer.resize(longer.size() + 3);
+  write_file(folder / "a folder/100%.bin", longer);
+  write_file(folder / "last.bin", Bytes(9));
+  document.write_gltf(folder / "a.gltf");
+  EXPECT_EQ(refusal(folder / "a.gltf"), "");
 }
 
 TEST(LoadGltfHostile, BrokenContainersAreRefused) {
