@@ -37,7 +37,7 @@ def glass():
     clear.absorb((0.975, 0.995, 0.98), 40.0)
     kit.place("green ball", kit.sphere("green ball", 96, 48), (-0.95, 0.3, 0.4), scale=(0.4, 0.4, 0.4), material=clear)
 
-    frosted = kit.Material("frosted", gltf={"Thickness": 1.0}, transmission=1.0, roughness=0.3, ior=1.45,
+    frosted = kit.Material("frosted", gltf={"Thickness": 1.0}, transmission=1.0, roughness=0.5, ior=1.45,
                            base_color=(1, 1, 1))
     kit.place("frosted block", kit.cube("frosted block"), (0.2, 0.75, 0.45), (0, 0, 15), (0.7, 0.15, 0.9),
               material=frosted)
@@ -55,9 +55,9 @@ def glass():
 def opaque():
     # a coat: Cycles' Principled counts a quarter of it and leaves the base as it is; this is glTF's
     coated = kit.Material("coated", gltf={"Specular": 0.0}, base_color=(0.6, 0.1, 0.08), specular=0.0, roughness=0.4,
-                          clearcoat=1.0, clearcoat_roughness=0.1)
+                          clearcoat=1.0, clearcoat_roughness=0.0)
     coated.cycles_renders(coated.mixed(coated.fresnel(1.5), coated.shader("Diffuse", Color=(0.6, 0.1, 0.08)),
-                                       coated.shader("Glossy", Color=(1, 1, 1), Roughness=0.1)))
+                                       coated.shader("Glossy", Color=(1, 1, 1), Roughness=0.0)))
     kit.place("coated ball", kit.sphere("coated ball"), (0.95, -0.1, 0.3), scale=(0.3, 0.3, 0.3), material=coated)
 
     gold = kit.Material("gold", base_color=(0.95, 0.7, 0.3), metallic=1.0, roughness=0.35)

@@ -167,8 +167,11 @@ class Material:
         return node.outputs[0]
 
     def fresnel(self, ior):
+        """Reflectance from outside on both sides: Cycles' node takes 1/IOR at the back."""
         node = self.add("ShaderNodeFresnel")
-        node.inputs["IOR"].default_value = ior
+        back = self.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+        sign = self.arithmetic("SUBTRACT", 1.0, self.arithmetic("MULTIPLY", back, 2.0))
+        self.link(self.arithmetic("POWER", ior, sign), node.inputs["IOR"])
         return node.outputs[0]
 
     def arithmetic(self, operation, a, b):

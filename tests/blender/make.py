@@ -3,7 +3,7 @@
     blender -b --python-exit-code 1 --python make.py -- SCENE FOLDER [--samples N] [--width N] [--height N] [--no-render]
 
 SCENE: room, glass, yard. Writes FOLDER/SCENE.glb and FOLDER/SCENE-VIEW-cycles.exr for each of its views (and
-FOLDER/sky.exr, the world of the yard, which a .glb cannot hold).
+FOLDER/sky.hdr, the world of the yard, which a .glb cannot hold).
 """
 
 import argparse
@@ -34,10 +34,11 @@ def main():
     os.makedirs(options.folder, exist_ok=True)
     kit.empty_file()
     scene, module = bpy.context.scene, importlib.import_module(options.scene)
-    kit.cycles(scene, options.width, options.height, options.samples)
     module.build(options.folder) if inspect.signature(module.build).parameters else module.build()
     stem = os.path.join(os.path.abspath(options.folder), options.scene)
     scene.camera = bpy.data.objects[module.VIEWS[0]]
+    for each in bpy.data.scenes:  # the exporter asks each scene for the shape of its pictures
+        kit.cycles(each, options.width, options.height, options.samples)
     kit.export(stem + ".glb")
     if options.no_render:
         return
@@ -45,7 +46,6 @@ def main():
         rendered = bpy.data.scenes.get(view, scene)  # a view is a camera of the first scene or a scene of its own
         if rendered is scene:
             scene.camera = bpy.data.objects[view]
-        kit.cycles(rendered, options.width, options.height, options.samples)
         rendered.render.filepath = f"{stem}-{view}-cycles.exr"
         bpy.ops.render.render(write_still=True, scene=rendered.name)
 

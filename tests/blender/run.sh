@@ -12,11 +12,11 @@ for name in "$@"; do
   scene=${name%-*} view=${name#*-} camera=${name#*-}
   case $name in
     room*) samples=512 exposure=-0.5 more= ;;
-    glass*) samples=768 exposure=-1 more= ;;
+    glass*) samples=512 exposure=-1 more= ;;
     # candelas are 683 lm/W times W/sr; the Mapping node turns directions, --env-rotation the map
     yard-annex) samples=512 exposure=-0.5 camera=gate more="--scene annex --luminous-efficacy 683" ;;
     yard*) samples=512 exposure=-0.5
-      more="--luminous-efficacy 683 --env $folder/sky.exr --env-rotation -40 --env-strength 0.7" ;;
+      more="--luminous-efficacy 683 --env $folder/sky.hdr --env-rotation -40 --env-strength 0.7" ;;
   esac
   if [ ! -e "$folder/$name-cycles.exr" ]; then
     blender -b --python-exit-code 1 --python "$here/make.py" -- "$scene" "$folder" \

@@ -18,7 +18,7 @@ def build(folder):
     ground()
     figures()
     lights()
-    world(os.path.join(folder, "sky.exr"))
+    world(os.path.join(folder, "sky.hdr"))
     kit.look("yard", (0.5, -5.5, 2.2), (0, 0, 0.8), angle=50)
     kit.look("gate", (-4.5, -3.0, 1.2), (0.3, 0.2, 0.9), angle=40)
     annex()
@@ -122,17 +122,21 @@ def sky(width=128):
     return radiance
 
 
+def write_hdr(path, radiance):
+    """Radiance's format, not packed; `radiance` from the bottom."""
+    height, width, _ = radiance.shape
+    _, exponent = np.frexp(radiance.max(axis=2))
+    mantissas = np.floor(np.ldexp(radiance, 8 - exponent[:, :, None])).astype(np.uint8)
+    texels = np.dstack([mantissas, (exponent + 128).astype(np.uint8)])
+    with open(path, "wb") as file:
+        file.write(f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode())
+        file.write(texels[::-1].tobytes())
+
+
 def world(path):
     """Blender looks its world up at u = 1/2 - atan2(y, x) / 2 pi after the Mapping node has turned the direction."""
-    radiance = sky()
-    height, width, _ = radiance.shape
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[:, :, :3] = radiance
-    picture = bpy.data.images.new("sky", width, height, float_buffer=True)
-    picture.colorspace_settings.name = "Linear"
-    picture.pixels.foreach_set(rgba.ravel())
-    picture.filepath_raw, picture.file_format = path, "OPEN_EXR"
-    picture.save()
+    write_hdr(path, sky())
+    picture = bpy.data.images.load(path)
     made = bpy.data.worlds.new("sky")
     made.use_nodes = True
     nodes, links = made.node_tree.nodes, made.node_tree.links
