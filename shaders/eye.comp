@@ -32,8 +32,6 @@ layout(binding = PPM_BIND_CELL_COUNT, scalar) buffer Counts { uint counts[]; };
 // Whether invocations start the eye paths of the tile, rather than going on with those of EYE_IN.
 layout(constant_id = 0) const bool kGenerate = false;
 
-bool hit_filter(uint triangle, vec2 barycentric) { return true; }
-
 const float kLeastFootprint = 1e-15;
 const uint kMaxSplits = 32u;  // bits of EyePath::code; later splits take one branch at random
 
@@ -191,9 +189,19 @@ void queue_channels(EyePath path) {
   } while (++channel < 3u);
 }
 
+// The samples of a pixel share a key and are strata, so that a veil hides its share of them but for one. Nor does a
+// path's code count: a segment that starts anew must meet what it met before.
+void set_coverage_key(EyePath path) {
+  uint pixel = path.group / push.samples;
+  uint events = path.state & 0xffffu;
+  coverage_key = random_words(random_of(pixel * push.samples), kCoverageBlock + events).x;
+  coverage_shift = (path.group - pixel * push.samples) * (0xffffffffu / push.samples);
+}
+
 // One segment of a path and what happens at its end; of the branches, the reflected is followed if there is one, else
 // the transmitted, but none when it is the `last` segment here: whatever is not followed is queued. False: it is over.
 bool advance(inout EyePath path, bool last, inout uint records) {
+  if (kCoverage) set_coverage_key(path);
   Hit hit = closest_hit(path.origin, path.direction, path.skip);
   uint events = path.state & 0xffffu;
   bool missed = hit.triangle == PPM_NO_TRIANGLE;

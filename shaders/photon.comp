@@ -21,8 +21,6 @@ layout(binding = PPM_BIND_PATHS_OUT, scalar) writeonly buffer PathsOut { PhotonP
 layout(binding = PPM_BIND_PHOTON_POSITION, scalar) writeonly buffer PhotonPositions { uvec4 photon_position[]; };
 layout(binding = PPM_BIND_PHOTON_FLUX, scalar) writeonly buffer PhotonFluxes { uvec4 photon_flux[]; };
 
-bool hit_filter(uint triangle, vec2 barycentric) { return true; }
-
 // Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering, to which a channel may have to be drawn.
 const uint kFirstScatteringBlock = 2u;
 const uint kFirstChannelBlock = 0x10000u;
@@ -51,9 +49,10 @@ PhotonPath emit(uint index, RandomStream random) {
   path.path = index;
   path.state = 0u;
   path.flux = emission.flux / (light.record.probability * scene.total_power);
+  if (kTexturedLights && has_surface) path.flux *= light_texture(light.record.triangle, emission.barycentric);
   path.skip = has_surface ? light.record.triangle : PPM_NO_TRIANGLE;
   if (kLayers && has_surface) {
-    float coat = fetch_material(fetch_triangle(path.skip).material).clearcoat;
+    float coat = light_coat(path.skip, emission.barycentric);
     path.flux *= clearcoat_transmittance(Clearcoat(coat, 0.0), dot(emission.direction, emission.normal));
   }
   return path;
@@ -109,6 +108,10 @@ bool scatter(inout PhotonPath path, Surface surface, uint events, RandomStream r
 
 // One segment of a path and what happens at its end; false: the path is over.
 bool advance(inout PhotonPath path, RandomStream random) {
+  if (kCoverage) {
+    coverage_key = random_words(random, kCoverageBlock + (path.state & 0xffffu)).x;
+    coverage_shift = 0u;
+  }
   Hit hit = closest_hit(path.origin, path.direction, path.skip);
   if (hit.triangle == PPM_NO_TRIANGLE) return false;
   path.flux *= medium_transmittance(path.state, hit.t);

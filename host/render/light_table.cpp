@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "emission_mean.hpp"
+
 namespace ppm::render {
 namespace {
 
@@ -69,15 +71,16 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
                             glm::vec3 bounding_centre, float bounding_radius) {
   LightTable table;
   std::vector<double> powers;
-  const auto add = [&](const shared::LightRecord& record) {
-    const glm::dvec3 power =
-        shared::light_power(resolve(record, scene, order, bounding_centre, bounding_radius));
+  const auto add = [&](const shared::LightRecord& record, glm::vec3 share = glm::vec3(1.0f)) {
+    const glm::dvec3 power = share * shared::light_power(resolve(record, scene, order,
+                                                                 bounding_centre, bounding_radius));
     const double mean = (power.x + power.y + power.z) / 3.0;
     if (!(mean > 0.0)) return;
     table.records.push_back(record);
     powers.push_back(mean);
     table.total_power += mean;
   };
+  const EmissionMean emission_mean(scene);
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
     const scene::Material& material = scene.materials[scene.triangles[order[slot]].material];
     if (material.emission == glm::vec3(0.0f)) continue;
@@ -85,7 +88,7 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
     record.kind = PPM_LIGHT_TRIANGLE;
     record.emission = material.emission;
     record.triangle = slot;
-    add(record);
+    add(record, emission_mean.of(order[slot]));
   }
   for (const scene::PunctualLight& source : scene.punctual_lights) add(punctual_record(source));
   if (powers.empty()) return table;

@@ -85,7 +85,9 @@ void add(Hash& hash, const scene::Texture& texture) {
   hash.add(static_cast<std::uint32_t>(texture.wrap_s));
   hash.add(static_cast<std::uint32_t>(texture.wrap_t));
   hash.add(texture.nearest);
-  hash.add(texture.texels.data(), texture.texels.size() * sizeof texture.texels[0]);
+  hash.add(texture.srgb);
+  hash.add(texture.rgba8.data(), texture.rgba8.size() * sizeof texture.rgba8[0]);
+  hash.add(texture.halves.data(), texture.halves.size() * sizeof texture.halves[0]);
 }
 
 void add(Hash& hash, const scene::PunctualLight& light) {

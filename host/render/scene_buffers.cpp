@@ -7,6 +7,7 @@
 #include "light_table.hpp"
 #include "shared/bindings.h"
 #include "shared/geometry.h"
+#include "texture_records.hpp"
 
 namespace ppm::render {
 namespace {
@@ -15,27 +16,8 @@ namespace {
 // path it cuts is counted.
 constexpr std::uint32_t kPhotonBounceCap = 1024;
 constexpr std::uint32_t kEyeBounceCap = 250;  // a hit point keeps its count in 8 bits
+constexpr float kDensest = 1e6f;
 constexpr std::size_t kMaxMaterials = 65535;  // a path keeps its medium in 16 bits
-
-/// The textures that a material uses, in the order of PPM_USE_*, are added to `uses`.
-void add_uses(const scene::Material& material, shared::MaterialRecord& record,
-              std::vector<shared::TextureUse>& uses) {
-  record.first_use = static_cast<std::uint32_t>(uses.size());
-  std::uint32_t which = PPM_USE_BASE_COLOR;
-  for (const scene::OptionalTextureUse* use :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
-        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
-        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
-    if (*use) {
-      record.use_mask |= which;
-      uses.push_back({(*use)->row_s,
-                      (*use)->texture | ((*use)->texcoord_set == 1 ? PPM_SECOND_TEXCOORD : 0u),
-                      (*use)->row_t, 0});
-    }
-    which <<= 1;
-  }
-}
 
 shared::MaterialRecord material_record(const scene::Material& material) {
   shared::MaterialRecord record{};
@@ -43,7 +25,8 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.metallic = material.metallic;
   record.roughness = material.roughness;
   record.transmission = material.transmission;
-  record.ior = material.ior;
+  // 0: as if infinitely dense (KHR_materials_ior); the reflectance below is 1 then.
+  record.ior = material.ior == 0.0f ? kDensest : material.ior;
   // KHR_materials_specular, section "Implementation".
   const float base = (material.ior - 1.0f) / (material.ior + 1.0f);
   record.specular_f0 = base * base * material.specular_color;
@@ -147,7 +130,10 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   shading.reserve(bvh.triangle_order.size());
   for (const std::uint32_t index : bvh.triangle_order) {
     const scene::Triangle& triangle = scene.triangles[index];
-    positions.push_back({triangle.corners[0].position, triangle.material,
+    const bool is_opaque =
+        scene.materials[triangle.material].alpha_mode == scene::AlphaMode::opaque;
+    positions.push_back({triangle.corners[0].position,
+                         triangle.material | (is_opaque ? 0u : PPM_HAS_COVERAGE),
                          triangle.corners[1].position, 0, triangle.corners[2].position, 0});
     shading.push_back(shading_record(triangle));
   }
@@ -155,22 +141,10 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   std::vector<shared::TextureUse> uses;
   for (const scene::Material& material : scene.materials) {
     materials.push_back(material_record(material));
-    add_uses(material, materials.back(), uses);
+    add_texture_uses(material, materials.back(), uses);
   }
 
-  std::vector<shared::TextureRecord> textures;
-  std::vector<glm::u16vec4> texels;
-  for (const scene::Texture& texture : scene.textures) {
-    const auto sampling = static_cast<std::uint32_t>(texture.wrap_s) |
-                          (static_cast<std::uint32_t>(texture.wrap_t) << 2) |
-                          (texture.nearest ? 16u : 0u);
-    textures.push_back(
-        {texture.width, texture.height, static_cast<std::uint32_t>(texels.size()), sampling});
-    texels.insert(texels.end(), texture.texels.begin(), texture.texels.end());
-    if (texels.size() > 0xffffffffu) {
-      throw Failure(scene.file, "textures", "more than 2^32 texels in all", "scale textures down");
-    }
-  }
+  const TextureRecords textures = make_texture_records(scene);
 
   constants_buffer_ = gpu::make_buffer(device, "scene constants",
                                        std::span<const shared::SceneConstants>(&constants_, 1),
@@ -179,9 +153,10 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   positions_ = texel_buffer(device, "triangle positions", positions);
   shading_ = texel_buffer(device, "triangle shading", shading);
   materials_ = texel_buffer(device, "materials", materials);
-  textures_ = texel_buffer(device, "textures", textures);
-  texels_ = texel_buffer(device, "texture texels", texels);
+  textures_ = texel_buffer(device, "textures", textures.records);
+  texels_ = texel_buffer(device, "texture texels", textures.texels);
   texture_uses_ = texel_buffer(device, "texture uses", uses);
+  details_ = texel_buffer(device, "triangle details", make_details(scene, bvh.triangle_order));
   lights_ = texel_buffer(device, "lights", lights.records);
 }
 
@@ -194,6 +169,7 @@ void SceneBuffers::bind(gpu::BindingTable& table) const {
   table.set(PPM_BIND_TEXTURES, textures_);
   table.set(PPM_BIND_TEXTURE_TEXELS, texels_);
   table.set(PPM_BIND_TEXTURE_USES, texture_uses_);
+  table.set(PPM_BIND_TRIANGLE_DETAILS, details_);
   table.set(PPM_BIND_LIGHTS, lights_);
 }
 

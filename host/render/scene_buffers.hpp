@@ -29,7 +29,7 @@ class SceneBuffers {
   double total_power_ = 0.0;
   double bvh_seconds_ = 0.0;
   gpu::Buffer constants_buffer_, nodes_, positions_, shading_, materials_, textures_, texels_,
-      texture_uses_, lights_;
+      texture_uses_, details_, lights_;
 };
 
 }  // namespace ppm::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emission_mean.hpp"
 #include "shared/bindings.h"
 #include "shared/bsdf.h"
 
@@ -37,7 +38,8 @@ SceneTraits::Constants SceneTraits::specialisation(Constants own) const {
                               {PPM_SPEC_LAYERS, layers},
                               {PPM_SPEC_DISPERSION, dispersion},
                               {PPM_SPEC_MEDIA, media},
-                              {PPM_SPEC_ENVIRONMENT, environment}};
+                              {PPM_SPEC_ENVIRONMENT, environment},
+                              {PPM_SPEC_TEXTURED_LIGHTS, textured_lights}};
   own.insert(own.end(), of_scene.begin(), of_scene.end());
   return own;
 }
@@ -52,6 +54,10 @@ SceneTraits traits_of(const scene::Scene& scene) {
   traits.details = !scene.details.empty();
   traits.layers = any(may_have_layers);
   traits.dispersion = any(may_disperse);
+  traits.coverage = any([](const scene::Material& material) {
+    return material.alpha_mode != scene::AlphaMode::opaque;
+  });
+  traits.textured_lights = any(has_textured_emission);
   traits.media = any([](const scene::Material& material) { return material.solid; });
   return traits;
 }

@@ -20,6 +20,7 @@ struct SceneTraits {
   bool dispersion = false;
   bool media = true;  ///< an inside
   bool environment = false;
+  bool textured_lights = true;  ///< an emission that differs from point to point
 
   /// The same as constants of the kernels (shaders/lib/scene_kinds.glsl).
   using Constants = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <new>
 
@@ -245,6 +246,15 @@ std::optional<double> Extension::number(const std::string& key) const {
   return found->second.GetNumberAsDouble();
 }
 
+int Extension::index(const std::string& key) const {
+  const std::optional<double> value = number(key);
+  if (!value) fail("has no " + key, "give it one");
+  if (!(*value >= 0.0 && *value <= 2147483647.0) || *value != std::floor(*value)) {
+    member(key).fail("is not a whole number of at most 2^31 - 1", "write such a number");
+  }
+  return static_cast<int>(*value);
+}
+
 float Extension::factor(const std::string& key, double otherwise, double low, double high) const {
   const std::optional<double> value = number(key);
   return static_cast<float>(value ? member(key).clamped(*value, low, high) : otherwise);
@@ -261,6 +271,13 @@ void Extension::factors(const std::string& key, std::span<float> out, double low
     values.push_back(value.GetNumberAsDouble());
   }
   member(key).clamped(values, out, low, high);
+}
+
+std::optional<Extension> Extension::object(const std::string& key) const {
+  const auto found = members_->find(key);
+  if (found == members_->end()) return std::nullopt;
+  if (!found->second.IsObject()) member(key).fail("is no object", "write {...} here");
+  return Extension(member(key), found->second.Get<tinygltf::Value::Object>());
 }
 
 }  // namespace ppm::scene::gltf

@@ -111,10 +111,14 @@ class Extension : public Place {
 
   bool has(const std::string& key) const { return members_->contains(key); }
   std::optional<double> number(const std::string& key) const;
+  /// An index to `follow`; must be there.
+  int index(const std::string& key) const;
   /// A number with a legal range, see Place::clamped.
   float factor(const std::string& key, double otherwise, double low, double high) const;
   /// The same for an array of as many numbers as `out`, which comes in with the default.
   void factors(const std::string& key, std::span<float> out, double low, double high) const;
+  /// A member that is an object, if it is there.
+  std::optional<Extension> object(const std::string& key) const;
 
  private:
   Extension(Place place, const tinygltf::Value::Object& members)

@@ -6,13 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/packing.hpp>
-#include <limits>
 #include <memory>
-#include <string_view>
+
+#include "gltf_image_format.hpp"
 
 namespace ppm::scene::gltf {
 namespace {
@@ -20,61 +19,57 @@ namespace {
 constexpr std::uint64_t kLargestSide = 16384;
 // Deflate makes 1032 bytes of one at most, and indices of one bit become up to 32.
 constexpr std::uint64_t kLargestExpansion = 1032 * 32;
-constexpr std::ptrdiff_t kMostScans =
-    200;  // a progressive JPEG of a few KB can ask for hours of them
 constexpr const char* kRemedy = "convert it to PNG or JPEG, or export it again";
+constexpr float kLargestHalf = 65504.0f;
 
 /// IEC 61966-2-1.
 double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Half floats for every code of an unsigned integer type.
-struct DecodingTable {
-  std::vector<std::uint16_t> color, alpha;
+std::uint16_t half_of(double value) {
+  // NaN becomes 0.
+  const double legal = value > 0.0 ? std::min(value, double{kLargestHalf}) : 0.0;
+  return glm::packHalf1x16(static_cast<float>(legal));
+}
 
-  explicit DecodingTable(std::size_t codes) : color(codes), alpha(codes) {
-    for (std::size_t i = 0; i < codes; ++i) {
-      const double value = static_cast<double>(i) / static_cast<double>(codes - 1);
-      color[i] = glm::packHalf1x16(static_cast<float>(srgb_to_linear(value)));
-      alpha[i] = glm::packHalf1x16(static_cast<float>(value));
-    }
-  }
+// What a channel becomes: codes of 8 bits stay, those of 16 bits become halves by a table.
+struct Bytes {
+  using Code = std::uint8_t;
+  using Texel = glm::u8vec4;
+  static constexpr OIIO::TypeDesc::BASETYPE kType = OIIO::TypeDesc::UINT8;
+  static constexpr Code kOpaque = 255;
+  Code color(Code code) const { return code; }
+  Code data(Code code) const { return code; }
 };
 
-/// OpenImageIO's name of the format that the first bytes tell, or nothing.
-const char* format_of(ByteView bytes) {
-  constexpr std::array<std::uint8_t, 8> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  constexpr std::array<std::uint8_t, 3> kJpeg{0xff, 0xd8, 0xff};
-  const auto begins_with = [&](ByteView magic) {
-    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-  };
-  return begins_with(kPng) ? "png" : begins_with(kJpeg) ? "jpeg" : nullptr;
-}
+struct Words {
+  using Code = std::uint16_t;
+  using Texel = glm::u16vec4;
+  static constexpr OIIO::TypeDesc::BASETYPE kType = OIIO::TypeDesc::UINT16;
+  static constexpr Code kOpaque = 65535;
+  std::vector<std::uint16_t> colors, values;
 
-/// How often the marker that begins a scan stands in a JPEG; in coded data it cannot.
-std::ptrdiff_t scan_count(ByteView bytes) {
-  std::ptrdiff_t count = 0;
-  for (std::size_t i = 1; i < bytes.size(); ++i) count += bytes[i - 1] == 0xff && bytes[i] == 0xda;
-  return count;
-}
-
-/// Whether the chunks of a PNG file are all there. Where libpng meets the end of a file early,
-/// OpenImageIO 2.4 jumps away from a string that it then leaks.
-bool is_whole_png(ByteView bytes) {
-  constexpr std::size_t kChunkBytes = 12;  // length, type and checksum around the data
-  bool has_data = false;
-  for (std::size_t at = 8; at + kChunkBytes <= bytes.size();) {
-    std::uint64_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | bytes[at + i];
-    if (length > bytes.size() - at - kChunkBytes) return false;
-    const std::string_view type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
-    if (type == "IEND") return has_data;
-    has_data = has_data || type == "IDAT";
-    at += kChunkBytes + length;
+  explicit Words(bool srgb) {
+    for (std::size_t i = 0; i <= kOpaque; ++i) {
+      const double value = static_cast<double>(i) / kOpaque;
+      values.push_back(half_of(value));
+      if (srgb) colors.push_back(half_of(srgb_to_linear(value)));
+    }
+    if (!srgb) colors = values;
   }
-  return false;
-}
+  std::uint16_t color(Code code) const { return colors[code]; }
+  std::uint16_t data(Code code) const { return values[code]; }
+};
+
+struct Floats {
+  using Code = float;
+  using Texel = glm::u16vec4;
+  static constexpr OIIO::TypeDesc::BASETYPE kType = OIIO::TypeDesc::FLOAT;
+  static constexpr Code kOpaque = 1.0f;
+  std::uint16_t color(Code code) const { return half_of(code); }
+  std::uint16_t data(Code code) const { return half_of(std::min(code, 1.0f)); }
+};
 
 /// Keeps stderr to ourselves: libpng prints errors and mere warnings there, and OpenImageIO 2.4
 /// does not stop it. Nothing happens where there is no stderr.
@@ -103,14 +98,10 @@ class Silence {
 class Decoder {
  public:
   Decoder(const Place& place, ByteView bytes) : place_(place), memory_(bytes.data(), bytes.size()) {
-    const char* format = format_of(bytes);
-    if (format == nullptr) place.fail("is no PNG or JPEG image", kRemedy);
-    if (format[0] == 'p' && !is_whole_png(bytes)) {
-      place.fail("is corrupt: its PNG file is cut short", kRemedy);
-    }
-    if (format[0] == 'j' && scan_count(bytes) > kMostScans) {
-      place.fail("has more than " + std::to_string(kMostScans) + " scans", kRemedy);
-    }
+    const char* format = image_format_of(bytes);
+    if (format == nullptr) place.fail("is no PNG, JPEG or other known image", kRemedy);
+    const std::string danger = danger_in_image(bytes, format);
+    if (!danger.empty()) place.fail(danger, kRemedy);
     input_ = OIIO::ImageInput::create(format);
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
@@ -122,22 +113,33 @@ class Decoder {
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
-  void check_size(std::uint64_t texel_budget) const {
+  void check_size(std::uint64_t byte_budget) const {
     const auto width = static_cast<std::uint64_t>(std::max(spec_.width, 0));
     const auto height = static_cast<std::uint64_t>(std::max(spec_.height, 0));
     const std::string size = std::to_string(width) + " x " + std::to_string(height);
-    if (width > kLargestSide || height > kLargestSide || width * height > texel_budget) {
+    const std::uint64_t texel_bytes = is_of_bytes() ? sizeof(glm::u8vec4) : sizeof(glm::u16vec4);
+    if (width > kLargestSide || height > kLargestSide ||
+        width * height * texel_bytes > byte_budget) {
       place_.fail("its " + size + " texels are too many", "use smaller images");
     }
+    const std::uint64_t most = kLargestExpansion * memory_.size();
     if (width * height == 0 || spec_.nchannels < 1 || spec_.nchannels > 4 || spec_.depth != 1 ||
-        spec_.image_bytes(true) > kLargestExpansion * memory_.size()) {
+        spec_.image_bytes(true) > most || !are_tiles_sound(most)) {
       place_.fail("is corrupt: it cannot hold " + size + " texels", kRemedy);
     }
   }
 
-  Image read() {
-    return spec_.format == OIIO::TypeDesc::UINT16 ? read_as<std::uint16_t>(OIIO::TypeDesc::UINT16)
-                                                  : read_as<std::uint8_t>(OIIO::TypeDesc::UINT8);
+  Image read(bool srgb) {
+    Image image{
+        static_cast<std::uint32_t>(spec_.width), static_cast<std::uint32_t>(spec_.height), {}, {}};
+    if (is_of_bytes()) {
+      read_as(Bytes(), image.rgba8);
+    } else if (spec_.format == OIIO::TypeDesc::UINT16) {
+      read_as(Words(srgb), image.halves);
+    } else {
+      read_as(Floats(), image.halves);
+    }
+    return image;
   }
 
  private:
@@ -147,25 +149,44 @@ class Decoder {
     place_.fail("is corrupt: " + printable(text.substr(0, text.find('\n'))), kRemedy);
   }
 
-  template <typename Code>
-  Image read_as(OIIO::TypeDesc type) {
-    const DecodingTable table(std::size_t{std::numeric_limits<Code>::max()} + 1);
+  bool is_of_bytes() const { return spec_.format.basesize() == 1; }
+
+  bool are_tiles_sound(std::uint64_t most_bytes) const {
+    if (spec_.tile_width == 0) return true;
+    const auto side = static_cast<int>(kLargestSide);
+    return spec_.tile_width > 0 && spec_.tile_height > 0 && spec_.tile_width <= side &&
+           spec_.tile_height <= side && spec_.tile_depth <= 1 &&
+           spec_.tile_bytes(true) <= most_bytes;
+  }
+
+  /// As many rows as the file keeps together, from `y` on.
+  bool read_band(int y, int end, OIIO::TypeDesc type, void* band) {
+    if (spec_.tile_width == 0)
+      return input_->read_scanlines(0, 0, y, end, 0, 0, spec_.nchannels, type, band);
+    return input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, y, end, spec_.z, spec_.z + 1, 0,
+                              spec_.nchannels, type, band);
+  }
+
+  template <typename Channels>
+  void read_as(const Channels& convert, std::vector<typename Channels::Texel>& texels) {
+    using Code = typename Channels::Code;
     const auto width = static_cast<std::size_t>(spec_.width);
-    const auto height = static_cast<std::size_t>(spec_.height);
     const auto channels = static_cast<std::size_t>(spec_.nchannels);
     const std::size_t colors = channels < 3 ? 1 : 3;
-    Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
-    image.texels.reserve(width * height);
-    std::vector<Code> row(width * channels);
-    for (int y = 0; y < spec_.height; ++y) {
-      if (!input_->read_scanline(y, 0, type, row.data())) corrupt();
-      for (const Code* code = row.data(); code != row.data() + row.size(); code += channels) {
-        const auto color = [&](std::size_t i) { return table.color[code[colors == 1 ? 0 : i]]; };
-        const Code alpha = channels > colors ? code[colors] : std::numeric_limits<Code>::max();
-        image.texels.emplace_back(color(0), color(1), color(2), table.alpha[alpha]);
+    const int rows = spec_.tile_width == 0 ? 1 : spec_.tile_height;
+    texels.reserve(width * static_cast<std::size_t>(spec_.height));
+    std::vector<Code> band(width * channels *
+                           static_cast<std::size_t>(std::min(rows, spec_.height)));
+    for (int y = 0; y < spec_.height; y += rows) {
+      const int end = std::min(y + rows, spec_.height);
+      if (!read_band(spec_.y + y, spec_.y + end, Channels::kType, band.data())) corrupt();
+      const Code* const last = band.data() + width * channels * static_cast<std::size_t>(end - y);
+      for (const Code* code = band.data(); code != last; code += channels) {
+        const auto color = [&](std::size_t i) { return convert.color(code[colors == 1 ? 0 : i]); };
+        const Code alpha = channels > colors ? code[colors] : Channels::kOpaque;
+        texels.emplace_back(color(0), color(1), color(2), convert.data(alpha));
       }
     }
-    return image;
   }
 
   const Place& place_;
@@ -188,12 +209,12 @@ ByteView encoded_bytes(const Element<tinygltf::Image>& image) {
 
 }  // namespace
 
-Image decode_image(const Element<tinygltf::Image>& image, std::uint64_t texel_budget) {
+Image decode_image(const Element<tinygltf::Image>& image, bool srgb, std::uint64_t byte_budget) {
   const ByteView bytes = encoded_bytes(image);
   const Silence silence;
   Decoder decoder(image, bytes);
-  decoder.check_size(texel_budget);
-  return decoder.read();
+  decoder.check_size(byte_budget);
+  return decoder.read(srgb);
 }
 
 }  // namespace ppm::scene::gltf

@@ -1,4 +1,4 @@
-// PNG and JPEG images to linear light.
+// Image files to texels.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,18 @@
 
 namespace ppm::scene::gltf {
 
-/// Linear RGBA as IEEE half floats, row-major from the top.
+/// RGBA, row-major from the top, in one of the two.
 struct Image {
   std::uint32_t width = 0, height = 0;
-  std::vector<glm::u16vec4> texels;
+  std::vector<glm::u8vec4> rgba8;    ///< codes as in the file
+  std::vector<glm::u16vec4> halves;  ///< files of more than 8 bits: linear light, IEEE half floats
 };
 
-/// Decodes an element of `images`; its colours are sRGB (IEC 61966-2-1), its alpha is linear.
-/// Throws Failure where the data is missing or corrupt, or has more than `texel_budget` texels.
-Image decode_image(const Element<tinygltf::Image>& image, std::uint64_t texel_budget);
+/// Decodes an element of `images`, whatever its mimeType says: PNG, JPEG, WebP, TIFF, BMP, OpenEXR
+/// and Radiance HDR. With `srgb` the colours of integers of 16 bits are decoded to linear light
+/// (IEC 61966-2-1); alpha and floats are linear in any case. Throws Failure where the data is
+/// missing or corrupt, or would take more than `byte_budget` bytes; nothing is allocated before
+/// that is known.
+Image decode_image(const Element<tinygltf::Image>& image, bool srgb, std::uint64_t byte_budget);
 
 }  // namespace ppm::scene::gltf

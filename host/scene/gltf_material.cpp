@@ -7,9 +7,9 @@
 namespace ppm::scene::gltf {
 namespace {
 
-constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 28;  // 2 GiB of half floats
 constexpr double kLargestFactor = 1e20;  // for factors without an upper limit: products stay finite
 constexpr double kLargestIor = 1e3;
+constexpr double kLargestPriority = 1e6;
 
 std::span<float> components(glm::vec3& v) {
   return {glm::value_ptr(v), 3};
@@ -25,50 +25,62 @@ void warn_of_member(const Place& owner, const char* name, bool is_there) {
   if (is_there) owner.member(name).warn(name, std::string(name) + " is ignored");
 }
 
-void warn_of_unread(const MaterialElement& element) {
-  warn_of_member(element, "normalTexture", element->normalTexture.index != -1);
-  warn_of_member(element, "occlusionTexture", element->occlusionTexture.index != -1);
-  warn_of_member(element, "emissiveTexture", element->emissiveTexture.index != -1);
-  if (element->alphaMode != "OPAQUE") {
-    element.member("alphaMode")
-        .warn("alphaMode", "alphaMode " + printable(element->alphaMode) + " is rendered as OPAQUE");
+void read_alpha(const MaterialElement& element, Material& material) {
+  const Place mode = element.member("alphaMode");
+  if (element->alphaMode == "MASK") {
+    material.alpha_mode = AlphaMode::mask;
+  } else if (element->alphaMode == "BLEND") {
+    material.alpha_mode = AlphaMode::blend;
+  } else if (element->alphaMode != "OPAQUE") {
+    mode.warn("alphaMode", "alphaMode " + printable(element->alphaMode) + " is rendered as OPAQUE");
   }
+  material.alpha_cutoff = static_cast<float>(
+      element.member("alphaCutoff").clamped(element->alphaCutoff, 0.0, kLargestFactor));
 }
 
-void read_emission(const MaterialElement& element, Material& material) {
-  element.member("emissiveFactor")
-      .clamped(element->emissiveFactor, components(material.emission), 0.0, 1.0);
-  if (const auto extension = extension_of(element, "KHR_materials_emissive_strength")) {
-    material.emission *= extension->factor("emissiveStrength", 1.0, 0.0, kLargestFactor);
-  }
-}
-
-void read_specular(const MaterialElement& element, Material& material) {
-  const auto extension = extension_of(element, "KHR_materials_specular");
-  if (!extension) return;
-  material.specular = extension->factor("specularFactor", 1.0, 0.0, 1.0);
-  extension->factors("specularColorFactor", components(material.specular_color), 0.0,
-                     kLargestFactor);
-  for (const char* name : {"specularTexture", "specularColorTexture"}) {
-    warn_of_member(*extension, name, extension->has(name));
-  }
+/// KHR_materials_unlit: the eye sees the base colour. Nothing else of the material counts.
+void read_unlit(const MaterialElement& element, Material& material) {
+  if (!extension_of(element, "KHR_materials_unlit")) return;
+  material.unlit = true;
+  material.emission = glm::vec3(0.0f);
+  material.emissive_texture.reset();
+  material.normal_texture.reset();
+  material.metallic_roughness_texture.reset();
+  material.metallic = 0.0f;
+  material.specular = 0.0f;
+  material.transmission = 0.0f;
+  material.clearcoat = 0.0f;
+  material.solid = false;
 }
 
 void read_ior(const MaterialElement& element, Material& material) {
   const auto extension = extension_of(element, "KHR_materials_ior");
   if (!extension) return;
+  // 0 stands for the reflectance of infinitely dense matter, which KHR_materials_specular then
+  // colours as it likes.
   if (extension->number("ior") == 0.0) {
-    extension->warn("ior 0", "ior 0, the specular-glossiness mode, is not known; 1.5 is used");
-    return;
+    material.ior = 0.0f;
+  } else {
+    material.ior = extension->factor("ior", 1.5, 1.0, kLargestIor);
   }
-  material.ior = extension->factor("ior", 1.5, 1.0, kLargestIor);
 }
 
-void read_transmission(const MaterialElement& element, Material& material) {
-  const auto extension = extension_of(element, "KHR_materials_transmission");
-  if (!extension) return;
-  material.transmission = extension->factor("transmissionFactor", 0.0, 0.0, 1.0);
-  warn_of_member(*extension, "transmissionTexture", extension->has("transmissionTexture"));
+void read_dispersion(const MaterialElement& element, Material& material) {
+  const auto extension = extension_of(element, "KHR_materials_dispersion");
+  if (extension) material.dispersion = extension->factor("dispersion", 0.0, 0.0, kLargestIor);
+}
+
+/// `extras.priority`, ours: which of two media that overlap counts.
+void read_priority(const MaterialElement& element, Material& material) {
+  if (!element->extras.IsObject() || !element->extras.Has("priority")) return;
+  const tinygltf::Value& value = element->extras.Get("priority");
+  const Place place = element.member("extras.priority");
+  if (!value.IsNumber()) {
+    place.warn("priority", "is not a number and was ignored");
+    return;
+  }
+  material.priority = static_cast<int>(
+      std::lround(place.clamped(value.GetNumberAsDouble(), -kLargestPriority, kLargestPriority)));
 }
 
 void read_volume(const MaterialElement& element, Material& material, double length_scale) {
@@ -88,71 +100,7 @@ void read_volume(const MaterialElement& element, Material& material, double leng
   }
 }
 
-Wrap wrap_of(const Place& place, int number) {
-  switch (number) {
-    case TINYGLTF_TEXTURE_WRAP_REPEAT:
-      return Wrap::repeat;
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-      return Wrap::clamp_to_edge;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-      return Wrap::mirrored_repeat;
-    default:
-      place.fail("is not a wrapping mode", "use 10497, 33071 or 33648");
-  }
-}
-
-bool is_nearest(const Place& place, int number) {
-  switch (number) {
-    case TINYGLTF_TEXTURE_FILTER_NEAREST:
-      return true;
-    case TINYGLTF_TEXTURE_FILTER_LINEAR:
-    case -1:  // absent
-      return false;
-    default:
-      place.fail("is not a filter", "use 9728 or 9729");
-  }
-}
-
 }  // namespace
-
-Texture MaterialReader::decode_texture(const Element<tinygltf::Texture>& element) {
-  const tinygltf::Model& model = element.model();
-  const auto source = follow(element.member("source"), element->source, model.images, "images");
-  Texture texture;
-  texture.name = element->name.empty() ? source.name() : element.name();
-  if (element->sampler != -1) {
-    const auto sampler =
-        follow(element.member("sampler"), element->sampler, model.samplers, "samplers");
-    texture.wrap_s = wrap_of(sampler.member("wrapS"), sampler->wrapS);
-    texture.wrap_t = wrap_of(sampler.member("wrapT"), sampler->wrapT);
-    texture.nearest = is_nearest(sampler.member("magFilter"), sampler->magFilter);
-  }
-  Image image = decode_image(source, kMostTexels - texel_count_);
-  texel_count_ += image.texels.size();
-  texture.width = image.width;
-  texture.height = image.height;
-  texture.texels = std::move(image.texels);
-  return texture;
-}
-
-std::optional<std::uint32_t> MaterialReader::read_texture(
-    const Element<tinygltf::TextureInfo>& info) {
-  const auto element = follow(info.member("index"), info->index, info.model().textures, "textures");
-  if (info->texCoord != 0) {
-    info.warn("texCoord", "textures that use another set than TEXCOORD_0 are ignored");
-    return std::nullopt;
-  }
-  if (element->source == -1) {
-    element.warn("texture source", "a texture without a PNG or JPEG source is ignored");
-    return std::nullopt;
-  }
-  const auto known = textures_by_index_.find(info->index);
-  if (known != textures_by_index_.end()) return known->second;
-  textures_.push_back(decode_texture(element));
-  const auto position = static_cast<std::uint32_t>(textures_.size() - 1);
-  textures_by_index_.emplace(info->index, position);
-  return position;
-}
 
 void MaterialReader::read_metallic_roughness(const MaterialElement& element, Material& material) {
   const tinygltf::PbrMetallicRoughness& pbr = element->pbrMetallicRoughness;
@@ -160,30 +108,83 @@ void MaterialReader::read_metallic_roughness(const MaterialElement& element, Mat
   std::array<float, 4> base{};
   place.member("baseColorFactor").clamped(pbr.baseColorFactor, base, 0.0, 1.0);
   material.base_color = {base[0], base[1], base[2]};
+  material.alpha = base[3];
   material.metallic =
       static_cast<float>(place.member("metallicFactor").clamped(pbr.metallicFactor, 0.0, 1.0));
   material.roughness =
       static_cast<float>(place.member("roughnessFactor").clamped(pbr.roughnessFactor, 0.0, 1.0));
-  if (pbr.baseColorTexture.index != -1) {
-    if (const auto texture =
-            read_texture({place.member("baseColorTexture"), pbr.baseColorTexture})) {
-      material.base_color_texture = TextureUse{*texture, 0, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
-    }
+  material.base_color_texture =
+      textures_.read({place.member("baseColorTexture"), pbr.baseColorTexture}, Content::colors);
+  material.metallic_roughness_texture = textures_.read(
+      {place.member("metallicRoughnessTexture"), pbr.metallicRoughnessTexture}, Content::data);
+}
+
+void MaterialReader::read_normals(const MaterialElement& element, Material& material) {
+  const Element info(element.member("normalTexture"), element->normalTexture);
+  material.normal_texture = textures_.read(info, Content::data);
+  material.normal_scale =
+      static_cast<float>(info.member("scale").clamped(info->scale, -kLargestIor, kLargestIor));
+  warn_of_member(element, "occlusionTexture", element->occlusionTexture.index != -1);
+}
+
+void MaterialReader::read_emission(const MaterialElement& element, Material& material) {
+  element.member("emissiveFactor")
+      .clamped(element->emissiveFactor, components(material.emission), 0.0, 1.0);
+  if (const auto extension = extension_of(element, "KHR_materials_emissive_strength")) {
+    material.emission *= extension->factor("emissiveStrength", 1.0, 0.0, kLargestFactor);
   }
-  warn_of_member(place, "metallicRoughnessTexture", pbr.metallicRoughnessTexture.index != -1);
+  if (material.emission == glm::vec3(0.0f)) return;
+  material.emissive_texture = textures_.read(
+      {element.member("emissiveTexture"), element->emissiveTexture}, Content::colors);
+}
+
+void MaterialReader::read_specular(const MaterialElement& element, Material& material) {
+  const auto extension = extension_of(element, "KHR_materials_specular");
+  if (!extension) return;
+  material.specular = extension->factor("specularFactor", 1.0, 0.0, 1.0);
+  extension->factors("specularColorFactor", components(material.specular_color), 0.0,
+                     kLargestFactor);
+  material.specular_texture = textures_.read(*extension, "specularTexture", Content::data);
+  material.specular_color_texture =
+      textures_.read(*extension, "specularColorTexture", Content::colors);
+}
+
+void MaterialReader::read_transmission(const MaterialElement& element, Material& material) {
+  const auto extension = extension_of(element, "KHR_materials_transmission");
+  if (!extension) return;
+  material.transmission = extension->factor("transmissionFactor", 0.0, 0.0, 1.0);
+  if (material.transmission == 0.0f) return;
+  material.transmission_texture = textures_.read(*extension, "transmissionTexture", Content::data);
+}
+
+void MaterialReader::read_clearcoat(const MaterialElement& element, Material& material) {
+  const auto extension = extension_of(element, "KHR_materials_clearcoat");
+  if (!extension) return;
+  material.clearcoat = extension->factor("clearcoatFactor", 0.0, 0.0, 1.0);
+  if (material.clearcoat == 0.0f) return;
+  material.clearcoat_roughness = extension->factor("clearcoatRoughnessFactor", 0.0, 0.0, 1.0);
+  material.clearcoat_texture = textures_.read(*extension, "clearcoatTexture", Content::data);
+  material.clearcoat_roughness_texture =
+      textures_.read(*extension, "clearcoatRoughnessTexture", Content::data);
+  warn_of_member(*extension, "clearcoatNormalTexture", extension->has("clearcoatNormalTexture"));
 }
 
 Material MaterialReader::read(const MaterialElement& element, double length_scale) {
   Material material;
   material.name = element.name();
   read_metallic_roughness(element, material);
+  read_alpha(element, material);
+  read_normals(element, material);
   read_emission(element, material);
   read_specular(element, material);
   read_ior(element, material);
   read_transmission(element, material);
   read_volume(element, material, length_scale);
+  read_dispersion(element, material);
+  read_clearcoat(element, material);
+  read_priority(element, material);
+  read_unlit(element, material);
   material.double_sided = element->doubleSided;
-  warn_of_unread(element);
   return material;
 }
 

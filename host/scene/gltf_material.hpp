@@ -1,9 +1,7 @@
-// glTF materials and textures to the scene's.
+// glTF materials to the scene's.
 #pragma once
 
-#include <map>
-
-#include "gltf_image.hpp"
+#include "gltf_texture.hpp"
 #include "scene.hpp"
 
 namespace ppm::scene::gltf {
@@ -20,13 +18,16 @@ class MaterialReader {
   Material read(const Element<tinygltf::Material>& element, double length_scale);
 
  private:
-  void read_metallic_roughness(const Element<tinygltf::Material>& element, Material& material);
-  std::optional<std::uint32_t> read_texture(const Element<tinygltf::TextureInfo>& info);
-  Texture decode_texture(const Element<tinygltf::Texture>& element);
+  using MaterialElement = Element<tinygltf::Material>;
 
-  std::vector<Texture>& textures_;
-  std::map<int, std::uint32_t> textures_by_index_;  ///< glTF's index to ours
-  std::uint64_t texel_count_ = 0;
+  void read_metallic_roughness(const MaterialElement& element, Material& material);
+  void read_normals(const MaterialElement& element, Material& material);
+  void read_emission(const MaterialElement& element, Material& material);
+  void read_specular(const MaterialElement& element, Material& material);
+  void read_transmission(const MaterialElement& element, Material& material);
+  void read_clearcoat(const MaterialElement& element, Material& material);
+
+  TextureReader textures_;
 };
 
 }  // namespace ppm::scene::gltf

@@ -5,6 +5,7 @@
 #include <map>
 #include <new>
 
+#include "alpha.hpp"
 #include "failure.hpp"
 #include "gltf_camera.hpp"
 #include "gltf_light.hpp"
@@ -155,6 +156,7 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   bake_triangles(instances, root, scene, log);
   measure_bounds(scene);
   read_materials(uses, root, scene);
+  settle_alpha_modes(scene);
   for (const Placement& placement : placements) {
     if (auto light = read_light(placement, scene.frame)) scene.punctual_lights.push_back(*light);
     if (auto camera = read_camera(placement, scene.frame)) scene.cameras.push_back(*camera);

@@ -66,13 +66,16 @@ using OptionalTextureUse = std::optional<TextureUse>;
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// A colour texture, linear light, row-major from the top (glTF's v = 0), `width * height` texels.
+/// An image as textures use it, row-major from the top (glTF's v = 0), `width * height` texels in
+/// one of the two vectors. The same image may be two textures, colours and data.
 struct Texture {
   std::string name;
   std::uint32_t width = 0, height = 0;
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
   bool nearest = false;              ///< magFilter NEAREST; otherwise bilinear
-  std::vector<glm::u16vec4> texels;  ///< RGBA as IEEE half floats
+  bool srgb = false;                 ///< the colours of rgba8 are sRGB codes; alpha never is
+  std::vector<glm::u8vec4> rgba8;    ///< RGBA
+  std::vector<glm::u16vec4> halves;  ///< RGBA in linear light as IEEE half floats
 };
 
 /// A surface in glTF's terms, extensions folded in. One per glTF material that is used, plus glTF's
@@ -98,7 +101,7 @@ struct Material {
   float roughness = 1.0f;          ///< perceptual, in [0,1]; GGX alpha is its square
   float specular = 1.0f;           ///< KHR_materials_specular: 0 makes a dielectric Lambertian
   glm::vec3 specular_color{1.0f};  ///< idem, multiplies the reflectance at normal incidence
-  float ior = 1.5f;                ///< KHR_materials_ior, at least 1
+  float ior = 1.5f;                ///< KHR_materials_ior, at least 1, or 0: see there
   float transmission = 0.0f;       ///< KHR_materials_transmission, in [0,1]
   float dispersion = 0.0f;         ///< KHR_materials_dispersion: 20 / Abbe number
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;  ///< KHR_materials_clearcoat, in [0,1]

@@ -25,7 +25,7 @@ Light fetch_light(uint index) {
     light.corner0 = corners.corner0;
     light.corner1 = corners.corner1;
     light.corner2 = corners.corner2;
-    uint flags = fetch_material(corners.material).flags;
+    uint flags = fetch_material(corners.material & ~PPM_HAS_COVERAGE).flags;
     light.two_sided = (flags & PPM_MATERIAL_DOUBLE_SIDED) != 0u ? 1.0 : 0.0;
   }
   return light;

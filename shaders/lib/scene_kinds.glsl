@@ -14,6 +14,7 @@ layout(constant_id = PPM_SPEC_LAYERS) const bool kLayers = false;
 #define PPM_LAYERS kLayers
 layout(constant_id = PPM_SPEC_DISPERSION) const bool kDispersion = false;
 layout(constant_id = PPM_SPEC_MEDIA) const bool kMedia = true;
+layout(constant_id = PPM_SPEC_TEXTURED_LIGHTS) const bool kTexturedLights = true;
 layout(constant_id = PPM_SPEC_ENVIRONMENT) const bool kEnvironment = false;
 
 #endif

@@ -4,12 +4,11 @@
 
 #include "lib/scene_kinds.glsl"
 
-#include "lib/texture.glsl"
+#include "lib/coverage.glsl"
 #include "lib/traverse.glsl"
+#include "lib/triangle_data.glsl"
 #include "shared/bsdf.h"
 #include "shared/bsdf/dispersion.h"
-
-PPM_TEXELS(PPM_BIND_TRIANGLE_SHADING, triangle_shading);
 
 // A point on a surface as a path meets it. Both normals are on the side the path comes from.
 struct Surface {
@@ -24,20 +23,20 @@ struct Surface {
   vec3 channel_eta;    // bsdf.eta of each channel, with kDispersion
 };
 
-// The lobes of a material with a given base colour. `front`: seen from outside.
-Bsdf make_bsdf(MaterialRecord material, vec3 base_color, bool front) {
+// The lobes of a material at a point, textures and vertex colours applied. `front`: seen from outside.
+Bsdf make_bsdf(MaterialRecord material, bool front) {
   float dielectric = 1.0 - material.metallic;
   float opaque = dielectric * (1.0 - material.transmission);
   Bsdf bsdf;
-  bsdf.diffuse.albedo = base_color * opaque;
+  bsdf.diffuse.albedo = material.base_color * opaque;
   vec3 specular_f0 = min(material.specular_f0, vec3(1.0)) * material.specular;
   bsdf.diffuse.coat_f0 = max_component(specular_f0);
   bsdf.diffuse.coat_f90 = material.specular;
-  bsdf.glossy.f0 = base_color * material.metallic + specular_f0 * opaque;
+  bsdf.glossy.f0 = material.base_color * material.metallic + specular_f0 * opaque;
   bsdf.glossy.f90 = material.metallic + material.specular * opaque;
   bsdf.glossy.alpha = material.roughness < PPM_DELTA_ROUGHNESS ? 0.0 : square(material.roughness);
   bsdf.glass = dielectric * material.transmission;
-  bsdf.glass_tint = base_color;
+  bsdf.glass_tint = material.base_color;
   bool solid = (material.flags & PPM_MATERIAL_SOLID) != 0u;
   bsdf.eta = !solid ? 1.0 : front ? material.ior : 1.0 / material.ior;
   bsdf.thin_ior = solid ? 0.0 : material.ior;
@@ -47,7 +46,55 @@ Bsdf make_bsdf(MaterialRecord material, vec3 base_color, bool front) {
   return bsdf;
 }
 
-vec3 unpack_color(uvec2 words) { return vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x); }
+// Multiplies the factors of a material by its textures. Returns the normal of its normal map, in tangent space.
+// One loop over what the material has, since lavapipe runs the code of every branch.
+vec3 apply_textures(inout MaterialRecord material, Texcoords texcoords) {
+  vec3 normal = vec3(0.0, 0.0, 1.0);
+  uint rest = material.use_mask;
+  if (rest == 0u) return normal;
+  uint use = material.first_use;
+  do {
+    uint which = rest & (0u - rest);
+    vec4 value = sample_use(use, texcoords);
+    material.base_color *= which == PPM_USE_BASE_COLOR ? value.rgb : vec3(1.0);
+    material.roughness *= which == PPM_USE_METALLIC_ROUGHNESS ? value.g : 1.0;
+    material.metallic *= which == PPM_USE_METALLIC_ROUGHNESS ? value.b : 1.0;
+    if (kDetails) normal = which == PPM_USE_NORMAL ? 2.0 * value.rgb - 1.0 : normal;
+    material.emission *= which == PPM_USE_EMISSIVE ? value.rgb : vec3(1.0);
+    material.transmission *= which == PPM_USE_TRANSMISSION ? value.r : 1.0;
+    material.specular *= which == PPM_USE_SPECULAR ? value.a : 1.0;
+    material.specular_f0 *= which == PPM_USE_SPECULAR_COLOR ? value.rgb : vec3(1.0);
+    if (kLayers) {
+      material.clearcoat *= which == PPM_USE_CLEARCOAT ? value.r : 1.0;
+      material.clearcoat_roughness *= which == PPM_USE_CLEARCOAT_ROUGHNESS ? value.g : 1.0;
+    }
+    rest ^= which;
+    ++use;
+  } while (rest != 0u);
+  // Textures of floats may hold more.
+  material.base_color = min(material.base_color, vec3(1.0));
+  material.roughness = min(material.roughness, 1.0);
+  material.metallic = min(material.metallic, 1.0);
+  material.transmission = min(material.transmission, 1.0);
+  material.specular = min(material.specular, 1.0);
+  return normal;
+}
+
+// The normal that a normal map makes of the interpolated one.
+vec3 mapped_normal(vec3 normal, vec4 tangent, vec3 map, float scale) {
+  vec3 t = tangent.xyz - normal * dot(tangent.xyz, normal);
+  float size = length(t);
+  vec3 other;
+  if (size > 1e-6) {
+    t /= size;
+  } else {
+    tangent_frame(normal, t, other);
+  }
+  vec3 bitangent = cross(normal, t) * tangent.w;
+  vec3 mapped = t * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z;
+  float mapped_size = length(mapped);
+  return mapped_size > 0.0 ? mapped / mapped_size : normal;
+}
 
 // `direction` is the way the path travels.
 Surface surface_at(Hit hit, vec3 direction) {
@@ -56,7 +103,7 @@ Surface surface_at(Hit hit, vec3 direction) {
   uvec4 b = PPM_FETCH(triangle_shading, 4u * hit.triangle + 1u);
   uvec4 c = PPM_FETCH(triangle_shading, 4u * hit.triangle + 2u);
   uvec4 d = PPM_FETCH(triangle_shading, 4u * hit.triangle + 3u);
-  vec3 weights = vec3(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
+  vec3 weights = corner_weights(hit.barycentric);
 
   Surface surface;
   surface.position = corners.corner0 * weights.x + corners.corner1 * weights.y + corners.corner2 * weights.z;
@@ -65,28 +112,38 @@ Surface surface_at(Hit hit, vec3 direction) {
   surface.front = dot(geometric, direction) < 0.0;
   surface.geometric_normal = surface.front ? geometric : -geometric;
 
-  vec3 shading = unpack_direction(a.x) * weights.x + unpack_direction(a.y) * weights.y +
-                 unpack_direction(a.z) * weights.z;
-  float shading_length = length(shading);
-  shading = shading_length > 0.0 ? shading / shading_length : geometric;
-  if (dot(shading, surface.geometric_normal) < 0.0) shading = -shading;
-  // A path that arrives above the geometric but below the shading surface sees the former.
-  surface.shading_normal = dot(shading, direction) < 0.0 ? shading : surface.geometric_normal;
-
   MaterialRecord material = fetch_material(surface.material);
   surface.flags = material.flags;
-  vec3 base_color = material.base_color * (unpack_color(c.zw) * weights.x + unpack_color(d.xy) * weights.y +
-                                           unpack_color(d.zw) * weights.z);
+  material.base_color *= color_at(c, d, weights).rgb;
+  vec3 map = vec3(0.0, 0.0, 1.0);
+  Details details;
   if (kTextures) {
-    vec2 texcoord = uintBitsToFloat(b.xy) * weights.x + uintBitsToFloat(b.zw) * weights.y +
-                    uintBitsToFloat(c.xy) * weights.z;
-    Texcoords texcoords = Texcoords(texcoord, vec2(0.0));
-    base_color *=
-        sample_use(material.first_use, material.use_mask, PPM_USE_BASE_COLOR, texcoords, vec4(1.0)).rgb;
+    if (kDetails) details = details_at(hit.triangle, weights);
+    map = apply_textures(material, texcoords_at(b, c, weights, details));
   }
+
+  vec3 interpolated = unpack_direction(a.x) * weights.x + unpack_direction(a.y) * weights.y +
+                      unpack_direction(a.z) * weights.z;
+  float size = length(interpolated);
+  interpolated = size > 0.0 ? interpolated / size : geometric;
+  float side = dot(interpolated, surface.geometric_normal) < 0.0 ? -1.0 : 1.0;
+  vec3 shading = side * interpolated;
+  // A path that arrives above the geometric but below the shading surface sees the former.
+  surface.shading_normal = dot(shading, direction) < 0.0 ? shading : surface.geometric_normal;
+  if (kTextures && kDetails) {
+    // Seen from behind all of a normal map is turned round. Where it points away from the path, it is left out.
+    vec3 mapped = side * mapped_normal(interpolated, details.tangent, map, material.normal_scale);
+    bool usable = dot(mapped, surface.geometric_normal) > 0.0 && dot(mapped, direction) < 0.0;
+    surface.shading_normal = usable ? mapped : surface.shading_normal;
+  }
+
   bool emits = surface.front || (material.flags & PPM_MATERIAL_DOUBLE_SIDED) != 0u;
   surface.emission = emits ? material.emission : vec3(0.0);
-  surface.bsdf = make_bsdf(material, base_color, surface.front);
+  if ((material.flags & PPM_MATERIAL_UNLIT) != 0u) {  // the eye sees its colour, and it reflects nothing
+    surface.emission = material.base_color;
+    material.base_color = vec3(0.0);
+  }
+  surface.bsdf = make_bsdf(material, surface.front);
   if (kLayers) {
     surface.emission *= clearcoat_transmittance(surface.bsdf.coat, -dot(surface.geometric_normal, direction));
   }

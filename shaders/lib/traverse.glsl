@@ -1,14 +1,14 @@
 // Closest and any hit of a ray with the scene's triangles.
 //
-// The includer defines `bool hit_filter(uint triangle, vec2 barycentric)`, which may refuse a hit (cut-outs);
-// the ray then goes on. All loops of one invocation share 65535 iterations on some drivers: one ray takes a few
+// The includer defines `bool hit_filter(uint triangle, uint material, vec2 barycentric)`, which may refuse a hit
+// (lib/coverage.glsl; `material` as TrianglePositions has it); the ray then goes on. All loops of one invocation share 65535 iterations on some drivers: one ray takes a few
 // hundred, and no kernel loops over rays without bound.
 #ifndef PPM_LIB_TRAVERSE_GLSL
 #define PPM_LIB_TRAVERSE_GLSL
 
 #include "lib/scene.glsl"
 
-bool hit_filter(uint triangle, vec2 barycentric);
+bool hit_filter(uint triangle, uint material, vec2 barycentric);
 
 struct Hit {
   float t;           // distance along the unit direction, working units
@@ -190,8 +190,12 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
         vec2 barycentric0, barycentric1;
         bool met0 = intersect_triangle(corners0, origin, frame, hit.t, t0, barycentric0);
         bool met1 = intersect_triangle(corners1, origin, frame, hit.t, t1, barycentric1);
-        if (met0 && slot != skip && hit_filter(slot, barycentric0)) hit = Hit(t0, slot, barycentric0);
-        if (met1 && t1 < hit.t && other != skip && hit_filter(other, barycentric1)) hit = Hit(t1, other, barycentric1);
+        if (met0 && slot != skip && hit_filter(slot, corners0.material, barycentric0)) {
+          hit = Hit(t0, slot, barycentric0);
+        }
+        if (met1 && t1 < hit.t && other != skip && hit_filter(other, corners1.material, barycentric1)) {
+          hit = Hit(t1, other, barycentric1);
+        }
         if (any && hit.triangle != PPM_NO_TRIANGLE) return hit;
         slot += 2u;
       } while (slot <= last);

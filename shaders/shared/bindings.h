@@ -13,7 +13,7 @@
 #define PPM_BIND_TRIANGLE_SHADING 3    // TriangleShading, 4 texels each, leaf order
 #define PPM_BIND_MATERIALS 4           // MaterialRecord, PPM_MATERIAL_TEXELS each
 #define PPM_BIND_TEXTURES 5            // TextureRecord, 1 texel each
-#define PPM_BIND_TEXTURE_TEXELS 6      // RGBA halves, 2 colours a texel
+#define PPM_BIND_TEXTURE_TEXELS 6      // colours, see TextureRecord
 #define PPM_BIND_LIGHTS 7              // LightRecord, PPM_LIGHT_TEXELS each
 
 // Counters and problems that the host reads back.
@@ -86,13 +86,14 @@
 #define PPM_SPEC_SUBGROUP_SIZE 102     // see shaders/lib/subgroup.glsl
 
 // Those that the scene decides (shaders/lib/scene_kinds.glsl).
-#define PPM_SPEC_ROUGH_GLOSS 110  // bool: some material has a rough glossy lobe
-#define PPM_SPEC_TEXTURES 111     // bool: some material has a texture
-#define PPM_SPEC_DETAILS 112      // bool: triangles have TRIANGLE_DETAILS
-#define PPM_SPEC_COVERAGE 113     // bool: some material is not opaque (alphaMode)
-#define PPM_SPEC_LAYERS 114       // bool: some material is a rough glass or has a clear coat
-#define PPM_SPEC_DISPERSION 115   // bool: some glass disperses
-#define PPM_SPEC_MEDIA 116        // bool: some material is solid
-#define PPM_SPEC_ENVIRONMENT 117  // bool: there is an environment
+#define PPM_SPEC_ROUGH_GLOSS 110      // bool: some material has a rough glossy lobe
+#define PPM_SPEC_TEXTURES 111         // bool: some material has a texture
+#define PPM_SPEC_DETAILS 112          // bool: triangles have TRIANGLE_DETAILS
+#define PPM_SPEC_COVERAGE 113         // bool: some material is not opaque (alphaMode)
+#define PPM_SPEC_LAYERS 114           // bool: some material is a rough glass or has a clear coat
+#define PPM_SPEC_DISPERSION 115       // bool: some glass disperses
+#define PPM_SPEC_MEDIA 116            // bool: some material is solid
+#define PPM_SPEC_ENVIRONMENT 117      // bool: there is an environment
+#define PPM_SPEC_TEXTURED_LIGHTS 118  // bool: some triangle light has a texture or coverage
 
 #endif  // PPM_SHARED_BINDINGS_H

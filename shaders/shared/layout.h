@@ -33,9 +33,10 @@ struct BvhNode {
 
 // Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, spare),
 // (corner2, spare).
+#define PPM_HAS_COVERAGE 0x80000000u
 struct TrianglePositions {
   vec3 corner0;
-  uint material;
+  uint material;  // PPM_HAS_COVERAGE: its alphaMode is not OPAQUE
   vec3 corner1;
   uint spare1;
   vec3 corner2;
@@ -115,10 +116,13 @@ struct MaterialRecord {
   float dispersion;
 };  // 112
 
-// Wrap modes and filter as in scene.hpp: bits 0-1 wrap_s, 2-3 wrap_t, 4 nearest.
+// Bits of TextureRecord::sampling. 0-1: wrap_s, 2-3: wrap_t, as in scene.hpp.
+#define PPM_TEXTURE_NEAREST 16u  // otherwise bilinear
+#define PPM_TEXTURE_HALVES 32u   // two colours to a texel, linear; otherwise four, 8 bits a channel
+#define PPM_TEXTURE_SRGB 64u     // the colours of 8 bits are sRGB codes
 struct TextureRecord {
   uint width, height;
-  uint first;  // index of the first colour (half a texel each)
+  uint first;  // index of the first texel
   uint sampling;
 };  // 16
 

@@ -3,7 +3,8 @@
 // Each offers a position density (per area of the light, or of the disc a directional light shines
 // through; 1 for a point) and a direction density (per solid angle; 1 for a delta), separately, so
 // that a method may use either. The probability of choosing the light is not in any of them.
-// Lengths are in the working frame.
+// Lengths are in the working frame. What a triangle's texture and coverage leave of its emission is
+// for callers to multiply (light_texture in lib/coverage.glsl).
 #ifndef PPM_SHARED_LIGHT_H
 #define PPM_SHARED_LIGHT_H
 
@@ -50,9 +51,10 @@ PPM_FN vec3 light_power(Light light) {
 
 struct LightEmission {
   vec3 position;
-  vec3 normal;     // of the surface photons start on; zero for lights without one
-  vec3 direction;  // the way the photon travels
-  vec3 flux;       // emitted radiance (or intensity ...) * cosine / the two densities
+  vec3 normal;       // of the surface photons start on; zero for lights without one
+  vec3 direction;    // the way the photon travels
+  vec3 flux;         // emitted radiance (or intensity ...) * cosine / the two densities
+  vec2 barycentric;  // triangle: weights of the corners 1 and 2
   float pdf_position_area;
   float pdf_direction_solid_angle;
 };
@@ -63,8 +65,10 @@ PPM_FN LightEmission light_emit(Light light, vec4 u, float side) {
   LightRecord record = light.record;
   LightEmission result;
   result.normal = vec3(0.0f);
+  result.barycentric = vec2(0.0f);
   if (record.kind == PPM_LIGHT_TRIANGLE) {
     vec2 b = sample_triangle(vec2(u.x, u.y));
+    result.barycentric = b;
     vec3 area_normal = triangle_area_normal(light);
     float doubled_area = length(area_normal);
     vec3 normal = area_normal / doubled_area;
@@ -111,9 +115,10 @@ PPM_FN LightEmission light_emit(Light light, vec4 u, float side) {
 }
 
 struct LightConnection {
-  vec3 direction;  // from the receiver to the light, unit
-  float distance;  // infinity is 1e30
-  vec3 radiance;   // so that radiance * f * cosine / pdf_solid_angle estimates reflected light
+  vec2 barycentric;  // triangle: weights of the corners 1 and 2 of the point on the light
+  vec3 direction;    // from the receiver to the light, unit
+  float distance;    // infinity is 1e30
+  vec3 radiance;     // so that radiance * f * cosine / pdf_solid_angle estimates reflected light
   float pdf_solid_angle;                 // at the receiver; 1 for delta lights
   float pdf_position_area;               // of the light point
   float emit_pdf_direction_solid_angle;  // with which light_emit would send a photon this way
@@ -127,6 +132,7 @@ PPM_FN LightConnection light_connect(Light light, vec3 point, vec2 u) {
   result.pdf_solid_angle = 1.0f;
   result.pdf_position_area = 1.0f;
   result.light_cosine = 1.0f;
+  result.barycentric = vec2(0.0f);
   if (record.kind == PPM_LIGHT_DIRECTIONAL) {
     result.direction = -record.direction;
     result.distance = 1e30f;
@@ -139,6 +145,7 @@ PPM_FN LightConnection light_connect(Light light, vec3 point, vec2 u) {
   vec3 area_normal = vec3(0.0f);
   if (record.kind == PPM_LIGHT_TRIANGLE) {
     vec2 b = sample_triangle(u);
+    result.barycentric = b;
     position = light.corner0 * (1.0f - b.x - b.y) + light.corner1 * b.x + light.corner2 * b.y;
     area_normal = triangle_area_normal(light);
   }

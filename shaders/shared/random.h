@@ -40,6 +40,17 @@ PPM_FN uvec4 random_words(RandomStream stream, uint block) {
                         uvec2(stream.seed, stream.stream));
 }
 
+// A word from two: for decisions that are named by more than a block. Rounds of multiplication and
+// shift with full avalanche (lowbias32 of Wellons's hash prospector).
+PPM_FN uint hash_word(uint x) {
+  x = (x ^ (x >> 16u)) * 0x7feb352du;
+  x = (x ^ (x >> 15u)) * 0x846ca68bu;
+  return x ^ (x >> 16u);
+}
+PPM_FN uint hash_words(uint key, uint number) {
+  return hash_word(key ^ hash_word(number + 0x9e3779b9u));
+}
+
 // Uniform in [0, 1): 24 bits, so that 1 is never reached.
 PPM_FN float unit_from_word(uint word) {
   return float(word >> 8u) * 5.9604644775390625e-8f;

@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform PushBlock { uint first, count; } push;
 PPM_TEXELS(PPM_BIND_TEST_0, rays);
 layout(binding = PPM_BIND_TEST_1, scalar) writeonly buffer Hits { uvec2 hits[]; };
 
-bool hit_filter(uint triangle, vec2 barycentric) {
+bool hit_filter(uint triangle, uint material, vec2 barycentric) {
   return true;
 }
 

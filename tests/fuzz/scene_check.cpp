@@ -101,7 +101,7 @@ void check_materials(const Scene& scene) {
     require(lies_within(m.attenuation_color, 0.0, 1.0), "attenuation lies in [0,1]", i);
     require(lies_within(m.specular_color, 0.0, 1e21), "specular colours are finite", i);
     require(lies_within(m.emission, 0.0, 1e21), "emission is finite", i);
-    require(lies_within(m.ior, 1.0, 1e4), "ior is at least 1", i);
+    require(m.ior == 0.0f || lies_within(m.ior, 1.0, 1e4), "ior is 0 or at least 1", i);
     require(m.attenuation_distance > 0.0f, "attenuation distances are positive", i);
   }
 }
@@ -110,7 +110,10 @@ void check_textures(const Scene& scene) {
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const Texture& texture = scene.textures[i];
     const std::size_t count = std::size_t{texture.width} * texture.height;
-    require(count > 0 && texture.texels.size() == count, "textures are whole", i);
+    const bool is_whole =
+        texture.halves.empty() ? texture.rgba8.size() == count : texture.halves.size() == count;
+    require(count > 0 && is_whole, "textures are whole", i);
+    require(texture.rgba8.empty() || texture.halves.empty(), "texels are of one kind", i);
   }
 }
 

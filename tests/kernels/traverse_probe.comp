@@ -24,7 +24,9 @@ layout(push_constant, scalar) uniform PushBlock { uint first, count, refuse_odd;
 layout(binding = PPM_BIND_TEST_0, scalar) readonly buffer Rays { ProbeRay rays[]; };
 layout(binding = PPM_BIND_TEST_1, scalar) writeonly buffer Hits { ProbeHit hits[]; };
 
-bool hit_filter(uint triangle, vec2 barycentric) { return push.refuse_odd == 0u || (triangle & 1u) == 0u; }
+bool hit_filter(uint triangle, uint material, vec2 barycentric) {
+  return push.refuse_odd == 0u || (triangle & 1u) == 0u;
+}
 
 void main() {
   uint item = item_of_invocation(push.first);

@@ -94,6 +94,12 @@ Mesh plate(float height, float half, bool front_up) {
 void expect_irradiance(gpu::Device& device, const GltfWriter& writer, const PlateView& view,
                        glm::dvec3 albedo, const Irradiance& irradiance, std::uint32_t max_depth,
                        double slack) {
+  expect_irradiance(device, load(writer), view, albedo, irradiance, max_depth, slack);
+}
+
+void expect_irradiance(gpu::Device& device, const scene::Scene& scene, const PlateView& view,
+                       glm::dvec3 albedo, const Irradiance& irradiance, std::uint32_t max_depth,
+                       double slack) {
   const std::uint32_t blocks = view.pixels / view.block;
   std::vector<Expected> expected;
   Expected all;
@@ -104,7 +110,6 @@ void expect_irradiance(gpu::Device& device, const GltfWriter& writer, const Plat
       all.bias += expected.back().bias / static_cast<double>(blocks * blocks);
     }
   }
-  const scene::Scene scene = load(writer);
   const render::Settings settings = view.settings(scene, max_depth);
   const Window window = whole(settings);
   auto estimates = replicate(device, scene, settings, view.passes, view.seeds,

@@ -38,5 +38,9 @@ Mesh plate(float height, float half, bool front_up = true);
 void expect_irradiance(gpu::Device& device, const GltfWriter& writer, const PlateView& view,
                        glm::dvec3 albedo, const Irradiance& irradiance, std::uint32_t max_depth,
                        double slack);
+/// The same of a scene that has been loaded already.
+void expect_irradiance(gpu::Device& device, const scene::Scene& scene, const PlateView& view,
+                       glm::dvec3 albedo, const Irradiance& irradiance, std::uint32_t max_depth,
+                       double slack);
 
 }  // namespace ppm::test

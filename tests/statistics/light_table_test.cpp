@@ -149,6 +149,85 @@ TEST(LightTable, NoLightIsStarvedAndProbabilitiesAreTrue) {
   }
 }
 
+// Texture coordinates of a triangle: the lower left half of the texture, v down.
+void lay_out(scene::Triangle& triangle, glm::vec2 a, glm::vec2 b, glm::vec2 c) {
+  triangle.corners[0].texcoord = a;
+  triangle.corners[1].texcoord = b;
+  triangle.corners[2].texcoord = c;
+}
+
+scene::Texture texture_of(std::uint32_t size, glm::u8vec4 all) {
+  scene::Texture texture;
+  texture.width = texture.height = size;
+  texture.nearest = true;
+  texture.rgba8.assign(std::size_t{size} * size, all);
+  return texture;
+}
+
+// Half of the texture's red, a quarter of its green: the triangle below the diagonal has one texel
+// of four whole and halves of two others.
+TEST(LightTable, PowersAreWhatTexturesSay) {
+  scene::Scene scene = scene_of({1});
+  scene::Texture texture = texture_of(2, {0, 0, 0, 255});
+  texture.rgba8[2] = {255, 0, 0, 255};  // lower left
+  texture.rgba8[3] = {0, 255, 0, 127};  // lower right
+  scene.textures.push_back(texture);
+  scene.materials[1].emissive_texture.emplace();
+  lay_out(scene.triangles[0], {0, 0}, {0, 1}, {1, 1});
+  const std::vector<std::uint32_t> order{0};
+  const auto power = [&] {
+    return make_light_table(scene, order, glm::vec3(0.0f), 1.0f).total_power;
+  };
+  // Radiance (1, 2, 6), area 1/8. By midpoints, 16 of which lie on each side of no edge.
+  const double unit = std::numbers::pi * 0.125;
+  EXPECT_NEAR(power(), unit * (0.5 * 1.0 + 0.25 * 2.0) / 3.0, 0.02 * unit);
+  // The material's base colour shows the same texture, and covers by its alpha.
+  scene.materials[1].base_color_texture.emplace();
+  scene.materials[1].alpha_mode = scene::AlphaMode::mask;
+  EXPECT_NEAR(power(), unit * (0.5 * 1.0) / 3.0, 0.02 * unit);
+  scene.materials[1].alpha_mode = scene::AlphaMode::blend;
+  EXPECT_NEAR(power(), unit * (0.5 * 1.0 + 127 / 255.0 * 0.25 * 2.0) / 3.0, 0.02 * unit);
+  scene.materials[1].alpha = 0.5f;
+  EXPECT_NEAR(power(), unit * 0.5 * (0.5 * 1.0 + 127 / 255.0 * 0.25 * 2.0) / 3.0, 0.02 * unit);
+}
+
+// A black texture but for one texel, on a strip of triangles each some texels wide: no triangle
+// that shows any of it is left out, and those far from it are.
+TEST(LightTable, ASingleTexelIsEnough) {
+  for (const bool nearest : {true, false}) {
+    scene::Texture texture = texture_of(256, {0, 0, 0, 255});
+    texture.nearest = nearest;
+    texture.rgba8[256 * 10 + 100] = {1, 0, 0, 255};
+    scene::Scene scene = scene_of(std::vector<std::uint32_t>(2000, 1));
+    scene.textures.push_back(texture);
+    scene.materials[1].emissive_texture.emplace();
+    std::vector<std::uint32_t> order;
+    const auto edge = [](std::uint32_t i) { return static_cast<float>(i / 2) / 1000.0f; };
+    for (std::uint32_t i = 0; i < 2000; ++i) {  // 1000 columns of a quarter of a texel, two each
+      const float left = edge(i), right = edge(i + 2);
+      if (i % 2 == 0) {
+        lay_out(scene.triangles[i], {left, 0}, {right, 0}, {left, 1});
+      } else {
+        lay_out(scene.triangles[i], {right, 0}, {right, 1}, {left, 1});
+      }
+      order.push_back(i);
+    }
+    const LightTable table = make_light_table(scene, order, glm::vec3(0.0f), 1.0f);
+    std::vector<bool> found(2000, false);
+    for (const shared::LightRecord& record : table.records) found[record.triangle] = true;
+    // Filtered, a texel reaches half a texel further; and a box may be lit beside its triangle.
+    const double reach = nearest ? 0.0 : 0.5, slack = 1.5 - reach;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+      const double left = edge(i) * 256.0, right = edge(i + 2) * 256.0;
+      const bool is_near_top = i % 2 == 0;  // texel row 10 of 256: most of an even triangle's width
+      const bool must = right > 100 - reach + 0.02 && left + 0.04 < 101 + reach && is_near_top;
+      const bool must_not = right < 100 - reach - slack || left > 101 + reach + slack;
+      EXPECT_TRUE(found[i] || !must) << i << ": " << left << " to " << right;
+      EXPECT_FALSE(found[i] && must_not) << i << ": " << left << " to " << right;
+    }
+  }
+}
+
 TEST(LightTable, IsEmptyInTheDark) {
   scene::Scene scene = scene_of({0, 0});
   scene.punctual_lights = {point_light(0.0f)};
