@@ -102,6 +102,11 @@ json opaque_smooth_dielectric() {
   return {{"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.0}}}};
 }
 
+json rough(json glass_material) {
+  glass_material["pbrMetallicRoughness"]["roughnessFactor"] = 0.1;
+  return glass_material;
+}
+
 json half_transparent(json glass_material) {
   glass_material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5;
   return glass_material;
@@ -176,6 +181,16 @@ const Guest kGuests[] = {
     {"half_transparent_solid", kBallBias,
      [](GltfWriter& w) {
        w.mesh(icosphere(4, Shading::flat), w.material(half_transparent(glass(1.5))), turned(0.35));
+     }},
+    // Rough glass loses what would meet a second facet: at this roughness less than 0.5 % of what
+    // arrives steeper than 6 degrees, within a ball a few times.
+    {"rough_glass_ball", kBallBias + 0.01,
+     [](GltfWriter& w) {
+       w.mesh(icosphere(4, Shading::flat), w.material(rough(glass(1.5))), turned(0.35));
+     }},
+    {"rough_bubble", kBallBias + 0.01,
+     [](GltfWriter& w) {
+       w.mesh(icosphere(4, Shading::flat), w.material(rough(thin_glass(1.5))), turned(0.35));
      }},
 };
 
