@@ -45,6 +45,7 @@ TEST_F(Coverage, EyeRaysPassVeilsInProportion) {
     if (veils > 1) continue;
     double most = 0.0, least = 1.0;
     for (std::uint32_t i = 0; i < 24 * 24; ++i) {
+      if (i % 24 == i / 24 || i % 24 + i / 24 == 23) continue;  // both triangles share a pixel
       most = std::max(most, pixel(picture, i % 24, i / 24).x);
       least = std::min(least, pixel(picture, i % 24, i / 24).x);
     }

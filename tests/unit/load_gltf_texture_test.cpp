@@ -161,6 +161,43 @@ TEST(LoadGltfTextures, NoMoreIsAllocatedThanAFileCanHold) {
   }
 }
 
+// Whatever one byte of a file becomes and wherever it ends: it is read, or refused in one line.
+// Under the sanitizers this looks for what the libraries do besides.
+TEST(LoadGltfTextures, BrokenFilesOfEveryFormatAreReadOrRefused) {
+  struct Case {
+    const char* format;
+    OIIO::TypeDesc::BASETYPE type;
+    int tile;
+  };
+  const TemporaryFolder folder;
+  const auto file = folder / "scene.glb";
+  std::uint32_t state = 1;
+  for (const auto& [format, type, tile] :
+       {Case{"tiff", OIIO::TypeDesc::UINT8, 0}, Case{"tiff", OIIO::TypeDesc::FLOAT, 16},
+        Case{"bmp", OIIO::TypeDesc::UINT8, 0}, Case{"openexr", OIIO::TypeDesc::HALF, 0},
+        Case{"openexr", OIIO::TypeDesc::FLOAT, 16}, Case{"hdr", OIIO::TypeDesc::FLOAT, 0},
+        Case{"webp", OIIO::TypeDesc::UINT8, 0}}) {
+    const Bytes whole = file_of(format, type, 3, tile);
+    std::size_t refused = 0;
+    for (int i = 0; i < 120; ++i) {
+      SCOPED_TRACE(std::string(format) + " " + std::to_string(i));
+      state = state * 1664525u + 1013904223u;
+      Bytes broken = whole;
+      if (i % 8 == 0) {
+        broken.resize(whole.size() * (state >> 8 & 0xffu) / 256);
+      } else {
+        // Headers come first, and have most to lie about.
+        const std::size_t reach =
+            i % 2 == 0 ? whole.size() : std::min<std::size_t>(whole.size(), 200);
+        broken[(state >> 8) % reach] = i % 3 == 0 ? 0xff : static_cast<std::uint8_t>(state >> 3);
+      }
+      with_texture(broken).write_glb(file);
+      refused += refusal(file).empty() ? 0u : 1u;  // throws what is no refusal
+    }
+    EXPECT_GT(refused, 15u) << format;
+  }
+}
+
 TEST(LoadGltfTextures, WebpComesBeforeTheTexturesOwnSource) {
   GltfDocument document = with_texture(small_png());
   const Bytes webp = file_of("webp", OIIO::TypeDesc::UINT8, 4, 0);
