@@ -58,13 +58,13 @@ PhotonPath emit(uint index, RandomStream random) {
   return path;
 }
 
-void store(PhotonPath path, Surface surface, uint events) {
+void store(PhotonPath path, vec3 flux, Surface surface, uint events) {
   uint slot = atomicAdd(batch.photons[own_pass], 1u);
   if (slot >= push.photon_share) return;  // batch_check.comp sees the count
   slot += own_pass * push.photon_share;
   // Light from both sides may count at a hit point of rough glass, which must know which face it fell on.
   vec3 normal = kLayers && !surface.front ? -surface.geometric_normal : surface.geometric_normal;
-  Photon photon = Photon(surface.position, -path.direction, path.flux, normal, events);
+  Photon photon = Photon(surface.position, -path.direction, flux, normal, events);
   photon_position[slot] = pack_photon_position(photon);
   photon_flux[slot] = pack_photon_flux(photon);
 }
@@ -122,7 +122,12 @@ bool advance(inout PhotonPath path, RandomStream random) {
   }
   if (max_component(path.flux) <= 0.0) return false;
   uint events = path.state & 0xffffu;
-  if (is_non_specular(surface.bsdf)) store(path, surface, events);
+  if (is_non_specular(surface.bsdf)) {
+    // Eye paths and photons are stopped by the same share of the area: what they meet there is lit by all the light, of
+    // which only that share is stored.
+    float covered = kCoverage ? coverage_at(hit.triangle, surface.material, hit.barycentric) : 1.0;
+    store(path, path.flux / covered, surface, events);
+  }
   if (scene.max_depth != 0u && events + 2u > scene.max_depth) return false;  // no photon further on could count
   if (events >= scene.photon_bounce_cap) {
     count_event(PPM_COUNTER_PATHS_CUT);

@@ -80,6 +80,30 @@ TEST_F(Coverage, PhotonsPassVeilsInProportion) {
   }
 }
 
+// A plate that covers half of its area scatters half of the light, not a quarter.
+TEST_F(Coverage, IsLitAsIfItWereWhole) {
+  const glm::dvec3 position(-0.1, 0.9, 0.2), albedo(0.8, 0.5, 0.3);
+  PlateView view;
+  view.eye = {0.1, 0.3, -0.05};
+  view.seeds = 6;
+  view.samples_per_pixel = 2;  // one stops
+  GltfWriter writer;
+  nlohmann::json material = lambert(albedo);
+  material["alphaMode"] = "BLEND";
+  material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;
+  writer.mesh(plate(0.0f, 0.8f), writer.material(material));
+  writer.point_light(position, glm::dvec3(1.0), 3.0);
+  view.add_camera(writer);
+  expect_irradiance(
+      device(), load(writer), view, 0.5 * albedo,
+      [&](glm::dvec2 p) {
+        const glm::dvec3 to_light = position - glm::dvec3(p.x, 0.0, p.y);
+        const double d2 = glm::dot(to_light, to_light);
+        return glm::dvec3(3.0 * to_light.y / (d2 * std::sqrt(d2)));
+      },
+      1, 0.0);
+}
+
 struct Masked {
   scene::AlphaMode mode;
   float factor, cutoff, vertex;

@@ -76,6 +76,7 @@ render::Settings PlateView::settings(const scene::Scene& scene, std::uint32_t ma
   render::Settings settings = small_settings(scene, pixels, pixels, photons);
   settings.radius_mode = render::RadiusMode::fixed;
   settings.radius = radius;
+  settings.samples_per_pixel = samples_per_pixel;
   settings.max_depth = max_depth;
   return settings;
 }

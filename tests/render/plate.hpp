@@ -22,6 +22,7 @@ struct PlateView {
   double radius = 0.03;  ///< of the hit points, all passes start with it
   unsigned passes = 4, seeds = 8;
   std::uint64_t photons = 50000;
+  std::uint32_t samples_per_pixel = 1;
 
   void add_camera(GltfWriter& writer) const;
   render::Settings settings(const scene::Scene& scene, std::uint32_t max_depth) const;
