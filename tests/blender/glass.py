@@ -39,7 +39,7 @@ def glass():
 
     frosted = kit.Material("frosted", gltf={"Thickness": 1.0}, transmission=1.0, roughness=0.5, ior=1.45,
                            base_color=(1, 1, 1))
-    kit.place("frosted block", kit.cube("frosted block"), (0.2, 0.75, 0.45), (0, 0, 15), (0.7, 0.15, 0.9),
+    kit.place("frosted block", kit.cube("frosted block"), (0.2, 0.75, 0.47), (0, 0, 15), (0.7, 0.15, 0.9),
               material=frosted)
 
     # thin: glTF without thickness; Cycles: reflectance 2R/(1+R) between a mirror and nothing
