@@ -20,6 +20,8 @@ float least_alpha(const Texture& texture) {
 }  // namespace
 
 void settle_alpha_modes(Scene& scene) {
+  const auto is_opaque = [](const Material& m) { return m.alpha_mode == AlphaMode::opaque; };
+  if (std::ranges::all_of(scene.materials, is_opaque)) return;
   std::vector<float> least(scene.materials.size(), 1.0f);  // of the vertices
   for (const Triangle& triangle : scene.triangles) {
     for (const Corner& corner : triangle.corners) {

@@ -112,6 +112,13 @@ json half_transparent(json glass_material) {
   return glass_material;
 }
 
+/// alphaMode BLEND.
+json half_covering(json material) {
+  material["alphaMode"] = "BLEND";
+  material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 0.5};
+  return material;
+}
+
 glm::dmat4 turned(double scale) {
   return glm::rotate(placed({0.03, 0.02, -0.1}, scale), 0.6, glm::dvec3(0.3, 1.0, 0.2));
 }
@@ -172,6 +179,15 @@ const Guest kGuests[] = {
     {"smooth_white_dielectric", kBallBias,
      [](GltfWriter& w) {
        w.mesh(icosphere(4, Shading::flat), w.material(opaque_smooth_dielectric()), turned(0.35));
+     }},
+    {"half_covering_mirror_cube", 0.0,
+     [](GltfWriter& w) {
+       w.mesh(unit_box(), w.material(half_covering(white_metal())), turned(0.35));
+     }},
+    {"half_covering_white_ball", kBallBias,
+     [](GltfWriter& w) {
+       w.mesh(icosphere(4, Shading::flat), w.material(half_covering(lambert(glm::dvec3(1.0)))),
+              turned(0.35));
      }},
     {"half_transparent_bubble", kBallBias,
      [](GltfWriter& w) {
