@@ -1,5 +1,11 @@
 #include "seeds.hpp"
 
+#include <OpenImageIO/imageio.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
 namespace ppm::fuzz {
 namespace {
 
@@ -226,6 +232,21 @@ GltfDocument compressed() {
   return document;
 }
 
+/// A picture of 4 x 4 texels in a file of this kind, which must be one that OpenImageIO writes.
+Bytes picture(const char* extension, OIIO::TypeDesc type) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "a").string() + extension;
+  const std::vector<float> texels(4 * 4 * 3, 0.5f);
+  const auto output = OIIO::ImageOutput::create(file);
+  const OIIO::ImageSpec spec(4, 4, 3, type);
+  if (!output || !output->open(file, spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, texels.data()) || !output->close()) {
+    throw std::runtime_error("cannot write " + file + ": " + OIIO::geterror());
+  }
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 }  // namespace
 
 std::vector<Seed> seeds() {
@@ -233,16 +254,25 @@ std::vector<Seed> seeds() {
   beside.root["buffers"].push_back({{"byteLength", 36}, {"uri", "beside.bin"}});
   beside.root["bufferViews"][1]["buffer"] = 1;
   beside.root["bufferViews"][1]["byteOffset"] = 0;
-  return {{"everything.glb", everything().glb()},
-          {"everything.gltf", text_of(everything())},
-          {"topologies.glb", topologies().glb()},
-          {"materials.glb", materials().glb()},
-          {"materials.gltf", text_of(materials())},
-          {"lights.glb", lights_and_cameras().glb()},
-          {"poses.glb", poses().glb()},
-          {"instances.glb", instances().glb()},
-          {"compressed.glb", compressed().glb()},
-          {"beside.glb", beside.glb()}};
+  std::vector<Seed> all{{"everything.glb", everything().glb()},
+                        {"everything.gltf", text_of(everything())},
+                        {"topologies.glb", topologies().glb()},
+                        {"materials.glb", materials().glb()},
+                        {"materials.gltf", text_of(materials())},
+                        {"lights.glb", lights_and_cameras().glb()},
+                        {"poses.glb", poses().glb()},
+                        {"instances.glb", instances().glb()},
+                        {"compressed.glb", compressed().glb()},
+                        {"beside.glb", beside.glb()}};
+  for (const auto& [extension, type] :
+       {std::pair(".tif", OIIO::TypeDesc::UINT8), std::pair(".tif", OIIO::TypeDesc::FLOAT),
+        std::pair(".bmp", OIIO::TypeDesc::UINT8), std::pair(".webp", OIIO::TypeDesc::UINT8),
+        std::pair(".exr", OIIO::TypeDesc::HALF), std::pair(".hdr", OIIO::TypeDesc::FLOAT),
+        std::pair(".png", OIIO::TypeDesc::UINT16), std::pair(".jpg", OIIO::TypeDesc::UINT8)}) {
+    const std::string name = "image" + std::to_string(all.size()) + extension + ".glb";
+    all.push_back({name, with_image(picture(extension, type)).glb()});
+  }
+  return all;
 }
 
 }  // namespace ppm::fuzz

@@ -41,7 +41,7 @@ void expect_refused(const std::filesystem::path& file, const Malformed& row) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   SCOPED_TRACE(std::string(row.name) + ": \"" + message + "\"");
   EXPECT_LT(spent.count(), kMostSeconds);
-  const std::string place = row.place;
+  const std::string& place = row.place;
   const std::string prefix = file.string() + ": " + place + (place.empty() ? "" : ": ");
   ASSERT_TRUE(message.starts_with(prefix)) << "the place is not " << place;
   const std::string rest = message.substr(prefix.size());
@@ -267,6 +267,10 @@ TEST(LoadGltfHostile, SingularTransformsHideTheirMeshes) {
   }
 }
 
+Bytes bytes_of_text(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
 TEST(LoadGltfHostile, BrokenImagesAreRefused) {
   const Bytes good = png_of(2, 1, std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8});
   Bytes bent = good;
@@ -280,6 +284,17 @@ TEST(LoadGltfHostile, BrokenImagesAreRefused) {
       {"cut", Bytes(good.begin(), good.end() - 30), "is corrupt"},
       {"bent", bent, "is corrupt"},
       {"empty", {}, "images[0]"},
+      {"bmp header", {'B', 'M', 0, 0, 0, 1, 0, 0, 0, 0}, "images[0]: "},
+      {"tiff header", {'I', 'I', '*', 0, 8, 0, 0, 0, 0xff, 0xff}, "images[0]: "},
+      {"webp header",
+       {'R', 'I', 'F', 'F', 0xff, 0xff, 0xff, 0xff, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'L'},
+       "images[0]: "},
+      {"exr header", {0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0, 'c', 'h'}, "images[0]: "},
+      {"hdr of 10^12 texels",
+       bytes_of_text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n"),
+       "images[0]: "},
+      {"hdr without texels",
+       bytes_of_text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 10000\n"), "images[0]: "},
       {"jpeg header", {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x10}, "images[0]: is corrupt"},
   };
   for (const auto& [name, image, fragment] : images) {

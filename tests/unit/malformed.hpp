@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace ppm::test {
@@ -12,7 +13,7 @@ namespace ppm::test {
 struct Malformed {
   const char* name;
   std::function<void(nlohmann::json&)> fault;
-  const char* place;  ///< as in `nodes[3].mesh`; empty for the file as a whole
+  std::string place;  ///< as in `nodes[3].mesh`; empty for the file as a whole
   const char* words;  ///< of what is wrong there
 };
 

@@ -19,6 +19,16 @@ std::function<void(json&)> extension(const char* name, json members) {
   return [=](json& root) { root["materials"][0]["extensions"][name] = members; };
 }
 
+const std::string kTransform =
+    "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform";
+
+/// A KHR_texture_transform of the base colour's texture.
+std::function<void(json&)> transform(json members) {
+  return [=](json& root) {
+    root[json::json_pointer(kBaseColorTexture)]["extensions"]["KHR_texture_transform"] = members;
+  };
+}
+
 }  // namespace
 
 std::vector<Malformed> malformed_appearance() {
@@ -65,6 +75,46 @@ std::vector<Malformed> malformed_appearance() {
       {"wrap a name", set("/samplers/0/wrapT", "REPEAT"), "samplers[0].wrapT",
        "is not a whole number"},
       {"filter", set("/samplers/0/magFilter", 1), "samplers[0].magFilter", "is not a filter"},
+
+      {"normal map out of range", set("/materials/0/normalTexture", {{"index", 9}}),
+       "materials[0].normalTexture.index", "refers to textures[9]"},
+      {"emissive map without index", set("/materials/0/emissiveTexture", json::object()),
+       "materials[0].emissiveTexture.index", "is missing"},
+      {"normal scale a string", set("/materials/0/normalTexture", {{"index", 0}, {"scale", "1"}}),
+       "materials[0].normalTexture.scale", "is not a number"},
+      {"texture in an extension out of range",
+       extension("KHR_materials_transmission",
+                 {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 9}}}}),
+       "materials[0].extensions.KHR_materials_transmission.transmissionTexture.index",
+       "refers to textures[9]"},
+      {"texture in an extension without index",
+       extension("KHR_materials_transmission",
+                 {{"transmissionFactor", 1}, {"transmissionTexture", {{"texCoord", 0}}}}),
+       "materials[0].extensions.KHR_materials_transmission.transmissionTexture", "has no index"},
+      {"texture in an extension a number",
+       extension("KHR_materials_transmission",
+                 {{"transmissionFactor", 1}, {"transmissionTexture", 0}}),
+       "materials[0].extensions.KHR_materials_transmission.transmissionTexture", "is no object"},
+      {"texture in an extension by half",
+       extension("KHR_materials_specular", {{"specularTexture", {{"index", 0.5}}}}),
+       "materials[0].extensions.KHR_materials_specular.specularTexture.index",
+       "is not a whole number"},
+      {"coat of strings", extension("KHR_materials_clearcoat", {{"clearcoatFactor", "1"}}),
+       "materials[0].extensions.KHR_materials_clearcoat.clearcoatFactor", "is not a number"},
+      {"dispersion a list", extension("KHR_materials_dispersion", {{"dispersion", {1}}}),
+       "materials[0].extensions.KHR_materials_dispersion.dispersion", "is not a number"},
+      {"offset of strings", transform({{"offset", {"0", 0}}}), kTransform + ".offset[0]",
+       "is not a number"},
+      {"offset of three", transform({{"offset", {0, 0, 0}}}), kTransform + ".offset",
+       "has 3 items"},
+      {"scale of one", transform({{"scale", {1}}}), kTransform + ".scale", "has 1 items"},
+      {"turn of two", transform({{"rotation", {1, 2}}}), kTransform + ".rotation",
+       "is not a number"},
+      {"transform to a set before the first", transform({{"texCoord", -1}}),
+       kTransform + ".texCoord", "is negative"},
+      {"webp out of range",
+       [](json& root) { root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 9; },
+       "textures[0].extensions.EXT_texture_webp.source", "refers to images[9]"},
 
       {"image of nothing", set("/images/0", json::object()), "images[0]",
        "has neither a uri nor a bufferView"},
