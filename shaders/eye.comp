@@ -49,7 +49,7 @@ EyePath start(uint group) {
   u.z = random_units(random_of(pixel * push.samples), 0u).w;
   vec2 film = film_sample(push.filter_kind, position.x, position.y, sample_index, push.samples, u.xyz);
   EyePath path;
-  path.origin = scene.camera_position;
+  path.origin = camera_origin(scene, film);
   path.group = group;
   path.direction = camera_direction(scene, film);
   path.state = 0u;
@@ -57,7 +57,7 @@ EyePath start(uint group) {
   path.skip = PPM_NO_TRIANGLE;
   path.code = 0u;
   path.splits = 0u;
-  path.distance = 0.0;
+  path.distance = camera_distance(scene);
   path.solid_angle = pixel_solid_angle(scene, camera_direction(scene, vec2(position) + 0.5));
   return path;
 }

@@ -84,7 +84,10 @@ void replace_view(scene::Camera& camera, const RenderOptions& options, const sce
   if (options.camera_position) {
     camera.position = working_point(*options.camera_position, "--camera-position", scene);
   }
-  if (options.camera_fov) camera.yfov = *options.camera_fov * std::numbers::pi / 180.0;
+  if (options.camera_fov) {
+    camera.yfov = *options.camera_fov * std::numbers::pi / 180.0;
+    camera.ymag.reset();  // an angle asks for a pinhole
+  }
   if (!options.camera_target && !options.camera_up) return;
 
   glm::dvec3 forward = camera.forward;

@@ -141,7 +141,8 @@ void declare_camera(Declarer& declare, RenderOptions& options) {
   declare.vector("--camera-up", options.camera_up,
                  "what is up in the picture (default 0,1,0 with --camera-target)");
   declare.real("--camera-fov", "DEGREES", options.camera_fov,
-               "an angle between 0 and 180, both excluded", "vertical field of view",
+               "an angle between 0 and 180, both excluded",
+               "vertical field of view; makes an orthographic camera\na perspective one",
                [](double value) { return value > 0.0 && value < 180.0; });
 }
 

@@ -62,7 +62,8 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
       {"ppm-vk:camera_position", vector_text(circumstances.frame.to_world(camera.position))},
       {"ppm-vk:camera_forward", vector_text(camera.forward)},
       {"ppm-vk:camera_up", vector_text(camera.up)},
-      {"ppm-vk:camera_fov", camera.yfov * 180.0 / std::numbers::pi},
+      camera.ymag ? image::Attribute{"ppm-vk:camera_ymag", *camera.ymag / circumstances.frame.scale}
+                  : image::Attribute{"ppm-vk:camera_fov", camera.yfov * 180.0 / std::numbers::pi},
   };
 }
 

@@ -80,7 +80,8 @@ shared::SceneConstants camera_constants(const Settings& settings) {
   constants.camera_right = camera.right;
   constants.camera_up = camera.up;
   constants.camera_forward = camera.forward;
-  const double tan_half_y = std::tan(0.5 * camera.yfov);
+  constants.camera_kind = camera.ymag ? PPM_CAMERA_ORTHOGRAPHIC : PPM_CAMERA_PERSPECTIVE;
+  const double tan_half_y = camera.ymag ? *camera.ymag : std::tan(0.5 * camera.yfov);
   constants.camera_tan_half_y = static_cast<float>(tan_half_y);
   constants.camera_tan_half_x = static_cast<float>(tan_half_y * settings.width / settings.height);
   constants.width = settings.width;

@@ -11,12 +11,12 @@ using enum Treatment;
 // Sorted by name, which the unit tests check.
 constexpr std::array kTable{
     ExtensionEntry{"EXT_lights_image_based", ignored, "use --env"},
-    ExtensionEntry{"EXT_mesh_gpu_instancing", ignored, "only the node's own instance is rendered"},
-    ExtensionEntry{"EXT_meshopt_compression", ignored, "the uncompressed data is read"},
+    ExtensionEntry{"EXT_mesh_gpu_instancing", implemented, ""},
+    ExtensionEntry{"EXT_meshopt_compression", implemented, ""},
     ExtensionEntry{"EXT_texture_avif", ignored, "the texture's own image is read"},
     ExtensionEntry{"EXT_texture_webp", implemented, ""},
     ExtensionEntry{"KHR_animation_pointer", ignored, "animations are not played"},
-    ExtensionEntry{"KHR_draco_mesh_compression", ignored, "the uncompressed data is read"},
+    ExtensionEntry{"KHR_draco_mesh_compression", implemented, ""},
     ExtensionEntry{"KHR_lights_punctual", implemented, ""},
     ExtensionEntry{"KHR_materials_anisotropy", ignored, "highlights are round"},
     ExtensionEntry{"KHR_materials_clearcoat", implemented, "its normal map is ignored"},

@@ -12,21 +12,6 @@ namespace {
 constexpr std::uint64_t kMostUnbacked = std::uint64_t{1} << 12;
 constexpr std::uint64_t kMostUnbackedPerByte = 16;
 
-std::uint64_t size_of(ComponentType type) {
-  switch (type) {
-    case ComponentType::i8:
-    case ComponentType::u8:
-      return 1;
-    case ComponentType::i16:
-    case ComponentType::u16:
-      return 2;
-    case ComponentType::u32:
-    case ComponentType::f32:
-      return 4;
-  }
-  return 0;
-}
-
 ComponentType component_type_of(const Place& owner, int number) {
   switch (number) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -57,8 +42,10 @@ int components_of(const Element<tinygltf::Accessor>& accessor) {
       return 3;
     case TINYGLTF_TYPE_VEC4:
       return 4;
+    case TINYGLTF_TYPE_MAT4:
+      return 16;
     default:
-      accessor.fail("holds matrices", "use SCALAR, VEC2, VEC3 or VEC4 here");
+      accessor.fail("holds small matrices", "use SCALAR, VEC2, VEC3, VEC4 or MAT4 here");
   }
 }
 
@@ -148,6 +135,21 @@ Items items_of(const Start& start, ComponentType type, std::uint64_t count, std:
 
 }  // namespace
 
+std::uint64_t size_of(ComponentType type) {
+  switch (type) {
+    case ComponentType::i8:
+    case ComponentType::u8:
+      return 1;
+    case ComponentType::i16:
+    case ComponentType::u16:
+      return 2;
+    case ComponentType::u32:
+    case ComponentType::f32:
+      return 4;
+  }
+  return 0;
+}
+
 Accessor::Accessor(const Element<tinygltf::Accessor>& element) : path_(element.path()) {
   count_ = element.member("count").size(element->count);
   if (count_ == 0) element.fail("is empty", "remove it or give it elements");
@@ -155,6 +157,18 @@ Accessor::Accessor(const Element<tinygltf::Accessor>& element) : path_(element.p
   normalized_ = element->normalized;
   read_base(element);
   if (element->sparse.isSparse) read_sparse(element);
+  is_plain_ = base_.type == ComponentType::f32 && sparse_count_ == 0 && !base_.bytes.empty();
+}
+
+Accessor::Accessor(const Element<tinygltf::Accessor>& element, ByteView decoded)
+    : path_(element.path()),
+      count_(element->count),
+      components_(components_of(element)),
+      normalized_(element->normalized) {
+  base_.type = component_type_of(element, element->componentType);
+  base_.bytes = decoded;
+  base_.stride = size_of(base_.type) * static_cast<std::uint64_t>(components_);
+  is_plain_ = base_.type == ComponentType::f32 && !base_.bytes.empty();
 }
 
 void Accessor::read_base(const Element<tinygltf::Accessor>& element) {
@@ -188,6 +202,8 @@ void Accessor::read_sparse(const Element<tinygltf::Accessor>& element) {
   sparse_values_ = items_of(
       {sparse.member("values"), values.bufferView, static_cast<std::uint64_t>(values.byteOffset)},
       base_.type, sparse_count_, size, false);
+  // Many primitives may share one accessor.
+  if (!element.document().sound_sparse.insert(path_).second) return;
   double previous = -1.0;
   for (std::uint64_t i = 0; i < sparse_count_; ++i) {
     const double index = load_component(sparse_indices_, i, 0);
@@ -198,10 +214,8 @@ void Accessor::read_sparse(const Element<tinygltf::Accessor>& element) {
   }
 }
 
-double Accessor::real(std::uint64_t i, int component) const {
-  double value = 0.0;
-  const Items* items = &base_;
-  std::uint64_t position = i;
+const Items* Accessor::find(std::uint64_t i, std::uint64_t& position) const {
+  position = i;
   if (sparse_count_ > 0) {
     std::uint64_t low = 0, high = sparse_count_;
     while (low < high) {
@@ -213,12 +227,27 @@ double Accessor::real(std::uint64_t i, int component) const {
       }
     }
     if (low < sparse_count_ && load_component(sparse_indices_, low, 0) == static_cast<double>(i)) {
-      items = &sparse_values_;
       position = low;
+      return &sparse_values_;
     }
   }
-  if (!items->bytes.empty()) value = load_component(*items, position, component);
+  return base_.bytes.empty() ? nullptr : &base_;
+}
+
+double Accessor::real(std::uint64_t i, int component) const {
+  std::uint64_t position = 0;
+  const Items* const items = find(i, position);
+  if (!items) return 0.0;
+  const double value = load_component(*items, position, component);
   return normalized_ ? normalized_value(value, base_.type) : value;
+}
+
+glm::dmat4 Accessor::mat4(std::uint64_t i) const {
+  glm::dmat4 matrix;
+  for (int component = 0; component < 16; ++component) {
+    matrix[component / 4][component % 4] = real(i, component);
+  }
+  return matrix;
 }
 
 }  // namespace ppm::scene::gltf

@@ -6,8 +6,8 @@
 
 namespace ppm::scene::gltf {
 
-/// The perspective camera that hangs on a node, if one does; others are skipped with a warning.
-/// The node's scale is ignored, as glTF asks.
+/// The camera that hangs on a node, if one does. The node's scale is ignored, as glTF asks. Throws
+/// Failure for views that no picture can show.
 std::optional<Camera> read_camera(const Placement& placement, const Frame& frame);
 
 }  // namespace ppm::scene::gltf

@@ -9,6 +9,8 @@
 #include "failure.hpp"
 #include "gltf_container.hpp"
 #include "gltf_gate.hpp"
+#include "gltf_mending.hpp"
+#include "gltf_meshopt.hpp"
 
 namespace ppm::scene::gltf {
 namespace {
@@ -162,10 +164,15 @@ std::string printable(std::string_view text) {
 }
 
 Document read_document(const std::filesystem::path& file, Log& log) {
-  const std::vector<unsigned char> bytes = read_container(file);
+  std::vector<unsigned char> bytes = read_container(file);
   const JsonText json = json_text(bytes, file.string());
   const Survey found = survey(json.text, json.is_binary, file.string());
-  Document document{file.string(), parse(bytes, json.is_binary, file, found), &log, {}, {}};
+  if (found.mended_json) {
+    bytes = json.is_binary
+                ? with_json_chunk(bytes, *found.mended_json)
+                : std::vector<unsigned char>(found.mended_json->begin(), found.mended_json->end());
+  }
+  Document document{file.string(), parse(bytes, json.is_binary, file, found), &log, {}, {}, {}, {}};
   refuse_required(document);
   document.extensions = used_extensions(found.extensions, document.model.extensionsRequired);
   warn_of_ignored(document);
@@ -218,6 +225,12 @@ void Place::check_length(std::size_t actual, std::size_t expected) const {
 }
 
 ByteView bytes_of(const Element<tinygltf::BufferView>& view) {
+  const auto position = static_cast<int>(&*view - view.model().bufferViews.data());
+  std::map<int, std::vector<std::uint8_t>>& known = view.document().unpacked;
+  if (const auto entry = known.find(position); entry != known.end()) return entry->second;
+  if (auto unpacked = unpacked_bytes(view)) {
+    return known.emplace(position, std::move(*unpacked)).first->second;
+  }
   const auto buffer = follow(view.member("buffer"), view->buffer, view.model().buffers, "buffers");
   const ByteView bytes(buffer->data);
   const std::uint64_t offset = view.member("byteOffset").size(view->byteOffset);
@@ -246,13 +259,49 @@ std::optional<double> Extension::number(const std::string& key) const {
   return found->second.GetNumberAsDouble();
 }
 
-int Extension::index(const std::string& key) const {
-  const std::optional<double> value = number(key);
-  if (!value) fail("has no " + key, "give it one");
-  if (!(*value >= 0.0 && *value <= 2147483647.0) || *value != std::floor(*value)) {
-    member(key).fail("is not a whole number of at most 2^31 - 1", "write such a number");
+std::optional<std::string> Extension::text(const std::string& key) const {
+  const auto found = members_->find(key);
+  if (found == members_->end()) return std::nullopt;
+  if (!found->second.IsString()) member(key).fail("is not a string", "write a string here");
+  return found->second.Get<std::string>();
+}
+
+namespace {
+
+int index_in(const Place& place, const tinygltf::Value& value) {
+  // tinygltf keeps integers in 32 bits; the gate has refused longer ones.
+  const double number = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
+  if (!(number >= 0.0 && number <= 2147483647.0) || number != std::floor(number)) {
+    place.fail("is not a whole number of at most 2^31 - 1", "write such a number");
   }
-  return static_cast<int>(*value);
+  return static_cast<int>(number);
+}
+
+}  // namespace
+
+std::uint64_t Extension::whole(const std::string& key,
+                               std::optional<std::uint64_t> otherwise) const {
+  const auto found = members_->find(key);
+  if (found == members_->end() && otherwise) return *otherwise;
+  return static_cast<std::uint64_t>(index(key));
+}
+
+int Extension::index(const std::string& key) const {
+  const auto found = members_->find(key);
+  if (found == members_->end()) fail("has no " + key, "give it one");
+  return index_in(member(key), found->second);
+}
+
+std::map<std::string, int> Extension::indices(const std::string& key) const {
+  const auto found = members_->find(key);
+  if (found == members_->end() || !found->second.IsObject()) {
+    member(key).fail("is no object", "write {...} here");
+  }
+  std::map<std::string, int> result;
+  for (const auto& [name, value] : found->second.Get<tinygltf::Value::Object>()) {
+    result[name] = index_in(member(key).member(printable(name)), value);
+  }
+  return result;
 }
 
 float Extension::factor(const std::string& key, double otherwise, double low, double high) const {

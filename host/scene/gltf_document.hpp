@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -25,8 +26,10 @@ struct Document {
   std::string file;  ///< as the user named it
   tinygltf::Model model;
   Log* log = nullptr;
-  std::set<std::string, std::less<>> warned;  ///< kinds of warnings given so far
-  std::vector<UsedExtension> extensions;      ///< by name
+  std::set<std::string, std::less<>> warned;          ///< kinds of warnings given so far
+  std::vector<UsedExtension> extensions;              ///< by name
+  std::map<int, std::vector<std::uint8_t>> unpacked;  ///< bufferViews that are compressed
+  std::set<std::string> sound_sparse;  ///< accessors whose sparse indices were checked
 };
 
 /// Reads a .gltf or .glb file, told by its first bytes, and the files beside or below it that it
@@ -111,8 +114,14 @@ class Extension : public Place {
 
   bool has(const std::string& key) const { return members_->contains(key); }
   std::optional<double> number(const std::string& key) const;
+  std::optional<std::string> text(const std::string& key) const;
+  /// A count, offset or the like; must be there where there is no value `otherwise`.
+  std::uint64_t whole(const std::string& key,
+                      std::optional<std::uint64_t> otherwise = std::nullopt) const;
   /// An index to `follow`; must be there.
   int index(const std::string& key) const;
+  /// An object of indices to `follow`; must be there.
+  std::map<std::string, int> indices(const std::string& key) const;
   /// A number with a legal range, see Place::clamped.
   float factor(const std::string& key, double otherwise, double low, double high) const;
   /// The same for an array of as many numbers as `out`, which comes in with the default.

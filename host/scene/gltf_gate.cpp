@@ -9,6 +9,7 @@
 
 #include "failure.hpp"
 #include "gltf_document.hpp"
+#include "gltf_mending.hpp"
 #include "gltf_rules.hpp"
 #include "gltf_schema.hpp"
 
@@ -57,7 +58,7 @@ json parse(std::string_view text, const std::string& file) {
 }
 
 /// The path, below `value`, of an integer that tinygltf would cut to 32 bits.
-std::optional<std::string> cut_integer(const json& value) {
+std::optional<std::string> cut_integer(const json& value, bool in_extension = false) {
   if (value.is_number_integer()) {
     const bool fits = value.is_number_unsigned()
                           ? value.get<std::uint64_t>() <= std::numeric_limits<int>::max()
@@ -67,8 +68,10 @@ std::optional<std::string> cut_integer(const json& value) {
   if (!value.is_structured()) return std::nullopt;
   constexpr std::array kRead64{"byteLength", "byteOffset", "count", "min", "max", "extras"};
   for (const auto& [key, member] : value.items()) {
-    if (std::find(kRead64.begin(), kRead64.end(), key) != kRead64.end()) continue;
-    if (const std::optional<std::string> rest = cut_integer(member)) {
+    const bool may_be_long = std::find(kRead64.begin(), kRead64.end(), key) != kRead64.end();
+    if (may_be_long && (!in_extension || key == "extras")) continue;
+    const bool is_extension = in_extension || key == "extensions";
+    if (const std::optional<std::string> rest = cut_integer(member, is_extension)) {
       return (value.is_array() ? "[" + key + "]" : "." + key) + *rest;
     }
   }
@@ -162,7 +165,9 @@ Survey survey(std::string_view text, bool is_binary, const std::string& file) {
   }
   check_rules(root, is_binary, file);
   check_item_bytes(root, file);
-  return survey_of(root);
+  Survey result = survey_of(root);
+  result.mended_json = mended(root, is_binary);
+  return result;
 }
 
 }  // namespace ppm::scene::gltf

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@ struct Survey {
   std::map<std::string, std::size_t> lengths;   ///< of the top-level arrays
   std::set<std::string> extensions;             ///< that are used anywhere or declared
   std::vector<std::uint64_t> external_lengths;  ///< of the buffers in files beside, in their order
+  std::optional<std::string> mended_json;       ///< to be read instead, see gltf_mending.hpp
 };
 
 /// Checks the JSON of a .gltf or, where `is_binary`, a .glb file for what tinygltf would not

@@ -1,181 +1,23 @@
 #include "gltf_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
-#include "gltf_nodes.hpp"
+#include "gltf_tangent.hpp"
 
 namespace ppm::scene::gltf {
 namespace {
-
-using Indices = std::array<std::uint64_t, 3>;
 
 bool is_finite(glm::dvec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The mode of a primitive, or nothing for points and lines.
-std::optional<Topology> topology_of(const Element<tinygltf::Primitive>& primitive) {
-  switch (primitive->mode) {
-    case TINYGLTF_MODE_TRIANGLES:
-      return Topology::triangles;
-    case TINYGLTF_MODE_TRIANGLE_STRIP:
-      return Topology::strip;
-    case TINYGLTF_MODE_TRIANGLE_FAN:
-      return Topology::fan;
-    case TINYGLTF_MODE_POINTS:
-    case TINYGLTF_MODE_LINE:
-    case TINYGLTF_MODE_LINE_LOOP:
-    case TINYGLTF_MODE_LINE_STRIP:
-      primitive.warn("points and lines", "points and lines are not rendered");
-      return std::nullopt;
-    default:
-      primitive.member("mode").fail("is not a topology of glTF", "use 4, 5 or 6");
-  }
-}
-
-std::uint64_t triangle_count_of(const Place& primitive, Topology topology, std::uint64_t vertices) {
-  if (topology == Topology::triangles && vertices % 3 == 0) return vertices / 3;
-  if (topology != Topology::triangles && vertices >= 3) return vertices - 2;
-  primitive.fail(std::to_string(vertices) + " vertices do not make up whole triangles",
-                 "correct the indices or the mode");
-}
-
-std::optional<Accessor> attribute(const Element<tinygltf::Primitive>& primitive, const char* name) {
-  const auto found = primitive->attributes.find(name);
-  if (found == primitive->attributes.end()) return std::nullopt;
-  return Accessor(follow(primitive.member("attributes").member(name), found->second,
-                         primitive.model().accessors, "accessors"));
-}
-
-/// An attribute beside POSITION, which has `count` elements.
-std::optional<Accessor> attribute(const Element<tinygltf::Primitive>& primitive, const char* name,
-                                  std::uint64_t count, int least_components, int most_components) {
-  std::optional<Accessor> accessor = attribute(primitive, name);
-  if (!accessor) return std::nullopt;
-  const Place place = primitive.member("attributes").member(name);
-  if (accessor->components() < least_components || accessor->components() > most_components) {
-    place.fail("has a type that this attribute cannot have", "see glTF 2.0, section 3.7.2.1");
-  }
-  if (accessor->count() != count) {
-    place.fail("has " + std::to_string(accessor->count()) + " elements beside " +
-                   std::to_string(count) + " positions",
-               "give every attribute as many");
-  }
-  return accessor;
-}
-
-std::optional<Accessor> read_indices(const Element<tinygltf::Primitive>& primitive) {
-  if (primitive->indices == -1) return std::nullopt;
-  const Place place = primitive.member("indices");
-  Accessor accessor(follow(place, primitive->indices, primitive.model().accessors, "accessors"));
-  const ComponentType type = accessor.component_type();
-  const bool is_unsigned =
-      type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
-  if (accessor.components() != 1 || !is_unsigned) {
-    place.fail("are not unsigned integers", "use SCALAR with componentType 5121, 5123 or 5125");
-  }
-  return accessor;
-}
-
-void warn_of_unread(const Element<tinygltf::Primitive>& primitive) {
-  const Place attributes = primitive.member("attributes");
-  if (!primitive->targets.empty()) primitive.warn("morph targets", "morph targets are ignored");
-  if (primitive->attributes.contains("JOINTS_0")) attributes.warn("skins", "skins are ignored");
-  if (primitive->attributes.contains("COLOR_1")) attributes.warn("COLOR_1", "only COLOR_0 is read");
-}
-
-std::optional<int> material_of(const Element<tinygltf::Primitive>& primitive) {
-  if (primitive->material == -1) return std::nullopt;
-  follow(primitive.member("material"), primitive->material, primitive.model().materials,
-         "materials");
-  return primitive->material;
-}
-
-std::optional<Primitive> read_primitive(const Element<tinygltf::Primitive>& element,
-                                        MaterialUses& materials) {
-  const std::optional<Topology> topology = topology_of(element);
-  if (!topology) return std::nullopt;
-  warn_of_unread(element);
-  std::optional<Accessor> position = attribute(element, "POSITION");
-  if (!position) {
-    element.warn("no positions", "a primitive without POSITION is not rendered");
-    return std::nullopt;
-  }
-  const std::uint64_t count = position->count();
-  if (position->components() != 3) {
-    element.member("attributes.POSITION").fail("is not of type VEC3", "write x, y, z");
-  }
-  Primitive primitive{element, *topology, std::move(*position), {}, {}, {}, {}, 0, 0};
-  primitive.normal = attribute(element, "NORMAL", count, 3, 3);
-  primitive.texcoord = attribute(element, "TEXCOORD_0", count, 2, 2);
-  primitive.color = attribute(element, "COLOR_0", count, 3, 4);
-  primitive.indices = read_indices(element);
-  primitive.triangle_count =
-      triangle_count_of(element, *topology, primitive.indices ? primitive.indices->count() : count);
-  primitive.material = materials.use(material_of(element));
-  return primitive;
-}
-
-/// The vertices of triangle `t`, counter-clockwise seen from the front (glTF 2.0, section 3.7.2.1).
-Indices vertices_of(const Primitive& primitive, std::uint64_t t) {
-  Indices corners{};
-  switch (primitive.topology) {
-    case Topology::triangles:
-      corners = {3 * t, 3 * t + 1, 3 * t + 2};
-      break;
-    case Topology::strip:
-      corners = {t, t + 1 + t % 2, t + 2 - t % 2};
-      break;
-    case Topology::fan:
-      corners = {t + 1, t + 2, 0};
-      break;
-  }
-  if (primitive.indices) {
-    for (std::uint64_t& corner : corners) corner = primitive.indices->whole(corner);
-  }
-  return corners;
-}
-
-glm::dvec3 checked_position(const Primitive& primitive, std::uint64_t vertex) {
-  const Accessor& accessor = primitive.position;
-  if (vertex >= accessor.count()) {
-    primitive.element.member("indices").fail("index " + std::to_string(vertex) + " exceeds the " +
-                                                 std::to_string(accessor.count()) + " vertices",
-                                             "repair the mesh");
-  }
-  const glm::dvec3 position = accessor.vec3(vertex);
-  if (!is_finite(position)) {
-    primitive.element.member("attributes.POSITION")
-        .fail("vertex " + std::to_string(vertex) + " (" + accessor.path() + ") is not finite",
-              "repair the mesh");
-  }
-  return position;
-}
-
 glm::dvec3 transformed(const glm::dmat4& matrix, glm::dvec3 point) {
-  return glm::dvec3(matrix * glm::dvec4(point, 1.0));
+  return glm::dvec3(matrix[0]) * point.x + glm::dvec3(matrix[1]) * point.y +
+         glm::dvec3(matrix[2]) * point.z + glm::dvec3(matrix[3]);
 }
-
-/// How normals transform: by the inverse transpose, here as the cofactors with the determinant's
-/// sign, which exist for singular transforms too. Scaled to avoid overflow; only directions matter.
-struct NormalTransform {
-  glm::dmat3 matrix{1.0};
-  bool mirrors = false;
-
-  explicit NormalTransform(const glm::dmat4& to_world) {
-    glm::dmat3 m(to_world);
-    double largest = 0.0;
-    for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(m[column][row]));
-    }
-    if (largest > 0.0) m /= largest;
-    matrix = {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-    mirrors = glm::dot(m[0], matrix[0]) < 0.0;
-    if (mirrors) matrix = -matrix;
-  }
-};
 
 /// Whether the kernels, which work in single precision, can find the triangle's normal.
 bool has_area(const Triangle& triangle) {
@@ -201,9 +43,19 @@ glm::vec3 geometric_normal(const Triangle& triangle) {
                                 glm::dvec3(c[2].position) - glm::dvec3(c[0].position))));
 }
 
-glm::vec2 texcoord_of(const Primitive& primitive, std::uint64_t vertex) {
-  if (!primitive.texcoord) return glm::vec2(0.0f);
-  const glm::dvec2 uv = primitive.texcoord->vec2(vertex);
+/// A unit normal in the working frame. What is zero or not finite becomes the triangle's own.
+glm::vec3 normal_of(const PosedPrimitive& posed, std::uint64_t vertex,
+                    const NormalTransform& transform, glm::vec3 geometric) {
+  if (!posed.primitive().normal) return geometric;
+  if (const auto normal = unit(transform.matrix * posed.normal(vertex))) return glm::vec3(*normal);
+  posed.primitive().element.warn("normals",
+                                 "normals that are zero or not finite become the triangle's own");
+  return geometric;
+}
+
+glm::vec2 texcoord_of(const Primitive& primitive, std::size_t set, std::uint64_t vertex) {
+  if (!primitive.texcoords[set]) return glm::vec2(0.0f);
+  const glm::dvec2 uv = primitive.texcoords[set]->vec2(vertex);
   if (std::isfinite(uv.x) && std::isfinite(uv.y)) return glm::vec2(uv);
   primitive.element.warn("texture coordinates", "texture coordinates that are not finite become 0");
   return glm::vec2(0.0f);
@@ -211,49 +63,157 @@ glm::vec2 texcoord_of(const Primitive& primitive, std::uint64_t vertex) {
 
 glm::vec4 color_of(const Primitive& primitive, std::uint64_t vertex) {
   if (!primitive.color) return glm::vec4(1.0f);
-  const glm::dvec3 color = primitive.color->vec3(vertex);
-  const glm::dvec3 legal(std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0),
-                         std::clamp(color.z, 0.0, 1.0));
-  if (legal == color) return {glm::vec3(color), 1.0f};
+  const bool has_alpha = primitive.color->components() == 4;
+  const glm::dvec4 color =
+      has_alpha ? primitive.color->vec4(vertex) : glm::dvec4(primitive.color->vec3(vertex), 1.0);
+  glm::dvec4 legal;
+  for (int i = 0; i < 4; ++i) legal[i] = std::clamp(color[i], 0.0, 1.0);
+  // What compression rounds beyond the range is no fault of the file.
+  constexpr double kRounding = 1e-3;
+  if (glm::all(glm::lessThanEqual(glm::abs(legal - color), glm::dvec4(kRounding)))) {
+    return glm::vec4(legal);
+  }
   primitive.element.warn("vertex colors", "vertex colours outside [0,1] are clamped");
-  return is_finite(legal) ? glm::vec4(glm::vec3(legal), 1.0f) : glm::vec4(1.0f);
+  return is_finite(glm::dvec3(legal)) && std::isfinite(legal.w) ? glm::vec4(legal)
+                                                                : glm::vec4(1.0f);
 }
 
-glm::vec3 normal_of(const Primitive& primitive, std::uint64_t vertex, const glm::dmat3& matrix,
-                    glm::vec3 geometric) {
-  if (!primitive.normal) return geometric;
-  if (const auto normal = unit(matrix * primitive.normal->vec3(vertex))) return glm::vec3(*normal);
-  primitive.element.warn("normals",
-                         "normals that are zero or not finite become the triangle's own");
-  return geometric;
+/// Any unit vector across `normal`.
+glm::dvec3 any_across(glm::dvec3 normal) {
+  const glm::dvec3 axis =
+      std::abs(normal.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  return glm::normalize(glm::cross(axis, normal));
+}
+
+/// How a vertex gets into the world.
+struct VertexTransform {
+  glm::dmat4 to_world;
+  NormalTransform normals;
+
+  explicit VertexTransform(const glm::dmat4& matrix) : to_world(matrix), normals(matrix) {}
+};
+
+/// Makes triangles of a posed primitive.
+class Baker {
+ public:
+  Baker(const PosedPrimitive& posed, const Frame& frame, const DetailNeeds& needs)
+      : posed_(posed), primitive_(posed.primitive()), frame_(frame), needs_(needs) {
+    if (posed.is_rigid()) rigid_.emplace(posed.to_world(0));
+    if (!needs.tangents || (primitive_.normal && primitive_.tangent)) return;
+    const auto& texcoords = primitive_.texcoords[needs.tangent_set];
+    if (texcoords) tangents_.emplace(posed, *texcoords);
+  }
+
+  void bake(std::uint64_t t, Baked& baked) const;
+
+ private:
+  TriangleDetail detail_of(const Indices& vertices, const Triangle& triangle,
+                           const std::array<const VertexTransform*, 3>& transforms) const;
+  glm::vec4 tangent_of(glm::dvec4 tangent, glm::vec3 normal,
+                       const VertexTransform& transform) const;
+
+  const PosedPrimitive& posed_;
+  const Primitive& primitive_;
+  const Frame& frame_;
+  const DetailNeeds& needs_;
+  std::optional<VertexTransform> rigid_;    ///< of all vertices
+  std::optional<VertexTangents> tangents_;  ///< where they have to be computed
+};
+
+void Baker::bake(std::uint64_t t, Baked& baked) const {
+  Indices vertices = vertices_of(primitive_, t);
+  std::array<std::optional<VertexTransform>, 3> blended;
+  std::array<const VertexTransform*, 3> transforms{};
+  if (rigid_) {
+    transforms.fill(&*rigid_);
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) {
+      transforms[i] = &blended[i].emplace(posed_.to_world(vertices[i]));
+    }
+  }
+  if (transforms[0]->normals.mirrors) {
+    std::swap(vertices[1], vertices[2]);
+    std::swap(transforms[1], transforms[2]);
+  }
+  Triangle triangle{};
+  triangle.material = primitive_.material;
+  std::array<glm::dvec3, 3> world;
+  for (std::size_t i = 0; i < 3; ++i) {
+    world[i] = transformed(transforms[i]->to_world, posed_.position(vertices[i]));
+    triangle.corners[i].position = glm::vec3(frame_.to_working(world[i]));
+  }
+  if (!has_area(triangle)) {
+    ++(is_well_shaped(world) ? baked.left_out.too_small : baked.left_out.without_area);
+    return;
+  }
+  const glm::vec3 geometric = geometric_normal(triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Corner& corner = triangle.corners[i];
+    corner.normal = normal_of(posed_, vertices[i], transforms[i]->normals, geometric);
+    corner.texcoord = texcoord_of(primitive_, 0, vertices[i]);
+    corner.color = color_of(primitive_, vertices[i]);
+  }
+  baked.triangles.push_back(triangle);
+  if (baked.with_details) baked.details.push_back(detail_of(vertices, triangle, transforms));
+}
+
+TriangleDetail Baker::detail_of(const Indices& vertices, const Triangle& triangle,
+                                const std::array<const VertexTransform*, 3>& transforms) const {
+  TriangleDetail detail;
+  std::array<glm::dvec4, 3> tangents{};
+  if (tangents_) {
+    tangents = tangents_->at(vertices);
+  } else if (needs_.tangents && primitive_.tangent && primitive_.normal) {
+    for (std::size_t i = 0; i < 3; ++i) tangents[i] = posed_.tangent(vertices[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (needs_.texcoord1) detail[i].texcoord1 = texcoord_of(primitive_, 1, vertices[i]);
+    if (!needs_.tangents) continue;
+    detail[i].tangent = tangent_of(tangents[i], triangle.corners[i].normal, *transforms[i]);
+  }
+  return detail;
+}
+
+glm::vec4 Baker::tangent_of(glm::dvec4 tangent, glm::vec3 normal,
+                            const VertexTransform& transform) const {
+  const bool is_left = (tangent.w < 0.0) != transform.normals.mirrors;
+  auto direction = unit(glm::dmat3(transform.to_world) * glm::dvec3(tangent));
+  if (!direction) {
+    primitive_.element.warn("tangents",
+                            "tangents without a direction become any across the normal");
+    direction = any_across(normal);
+  }
+  return {glm::vec3(*direction), is_left ? -1.0f : 1.0f};
+}
+
+glm::dvec3 checked_position(const PosedPrimitive& posed, std::uint64_t vertex) {
+  const Primitive& primitive = posed.primitive();
+  const Accessor& accessor = primitive.position;
+  if (vertex >= accessor.count()) {
+    primitive.element.member("indices").fail("index " + std::to_string(vertex) + " exceeds the " +
+                                                 std::to_string(accessor.count()) + " vertices",
+                                             "repair the mesh");
+  }
+  const glm::dvec3 position = posed.position(vertex);
+  if (!is_finite(position)) {
+    primitive.element.member("attributes.POSITION")
+        .fail("vertex " + std::to_string(vertex) + " (" + accessor.path() + ") is not finite",
+              "repair the mesh");
+  }
+  return position;
 }
 
 }  // namespace
 
-std::uint32_t MaterialUses::use(std::optional<int> index) {
-  const auto next = static_cast<std::uint32_t>(in_order_.size());
-  const auto [position, is_new] = positions_.emplace(index, next);
-  if (is_new) in_order_.push_back(index);
-  return position->second;
-}
-
-std::vector<Primitive> read_primitives(const Element<tinygltf::Mesh>& mesh,
-                                       MaterialUses& materials) {
-  const Place list = mesh.member("primitives");
-  if (mesh->primitives.empty()) list.fail("is empty", "remove the mesh or give it a primitive");
-  std::vector<Primitive> primitives;
-  for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
-    std::optional<Primitive> primitive =
-        read_primitive({list.item(i), mesh->primitives[i]}, materials);
-    if (primitive) primitives.push_back(std::move(*primitive));
-  }
-  return primitives;
-}
-
-void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world) {
+void extend(Box& box, const PosedPrimitive& posed) {
+  const Primitive& primitive = posed.primitive();
+  glm::dmat4 to_world(1.0);
+  if (posed.is_rigid()) to_world = posed.to_world(0);
   for (std::uint64_t t = 0; t < primitive.triangle_count; ++t) {
     for (const std::uint64_t vertex : vertices_of(primitive, t)) {
-      const glm::dvec3 world = transformed(to_world, checked_position(primitive, vertex));
+      const glm::dvec3 position = checked_position(posed, vertex);
+      if (!posed.is_rigid()) to_world = posed.to_world(vertex);
+      const glm::dvec3 world = transformed(to_world, position);
       if (!is_finite(world)) {
         primitive.element.fail("its positions overflow in the world", "use smaller transforms");
       }
@@ -263,32 +223,27 @@ void extend(Box& box, const Primitive& primitive, const glm::dmat4& to_world) {
   }
 }
 
-void bake(const Primitive& primitive, const glm::dmat4& to_world, const Frame& frame,
-          std::vector<Triangle>& triangles, LeftOut& left_out) {
-  const NormalTransform normals(to_world);
-  for (std::uint64_t t = 0; t < primitive.triangle_count; ++t) {
-    Indices vertices = vertices_of(primitive, t);
-    if (normals.mirrors) std::swap(vertices[1], vertices[2]);
-    Triangle triangle{};
-    triangle.material = primitive.material;
-    std::array<glm::dvec3, 3> world;
-    for (std::size_t i = 0; i < 3; ++i) {
-      world[i] = transformed(to_world, primitive.position.vec3(vertices[i]));
-      triangle.corners[i].position = glm::vec3(frame.to_working(world[i]));
-    }
-    if (!has_area(triangle)) {
-      ++(is_well_shaped(world) ? left_out.too_small : left_out.without_area);
-      continue;
-    }
-    const glm::vec3 geometric = geometric_normal(triangle);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Corner& corner = triangle.corners[i];
-      corner.normal = normal_of(primitive, vertices[i], normals.matrix, geometric);
-      corner.texcoord = texcoord_of(primitive, vertices[i]);
-      corner.color = color_of(primitive, vertices[i]);
-    }
-    triangles.push_back(triangle);
+DetailNeeds needs_of(const Material& material) {
+  DetailNeeds needs;
+  for (const OptionalTextureUse* use :
+       {&material.base_color_texture, &material.metallic_roughness_texture,
+        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
+        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
+        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
+    needs.texcoord1 = needs.texcoord1 || (*use && (*use)->texcoord_set == 1);
   }
+  for (const OptionalTextureUse* use :
+       {&material.clearcoat_normal_texture, &material.normal_texture}) {
+    if (!*use) continue;
+    needs.tangents = true;
+    needs.tangent_set = (*use)->texcoord_set == 1 ? 1 : 0;
+  }
+  return needs;
+}
+
+void bake(const PosedPrimitive& posed, const Frame& frame, const DetailNeeds& needs, Baked& baked) {
+  const Baker baker(posed, frame, needs);
+  for (std::uint64_t t = 0; t < posed.primitive().triangle_count; ++t) baker.bake(t, baked);
 }
 
 }  // namespace ppm::scene::gltf

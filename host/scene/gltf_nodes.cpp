@@ -21,18 +21,11 @@ glm::dmat4 matrix_of(const Place& place, const std::vector<double>& values) {
   return matrix;
 }
 
-/// Rotation by a quaternion (x, y, z, w) of any length but zero.
 glm::dmat3 rotation_of(const Place& place, const std::vector<double>& q) {
   place.check_length(q.size(), 4);
-  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (!(length > 0.0) || !std::isfinite(length)) {
-    place.fail("is not a rotation", "write a unit quaternion x, y, z, w");
-  }
-  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-  // Columns: the images of the axes.
-  return {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)},
-          {2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)},
-          {2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)}};
+  const auto matrix = rotation({q[0], q[1], q[2], q[3]});
+  if (!matrix) place.fail("is not a rotation", "write a unit quaternion x, y, z, w");
+  return *matrix;
 }
 
 glm::dvec3 vector_of(const Place& place, const std::vector<double>& values) {
@@ -139,6 +132,16 @@ std::optional<glm::dvec3> unit(glm::dvec3 v) {
   const glm::dvec3 scaled = v / largest;
   const glm::dvec3 result = glm::normalize(scaled);
   return std::isfinite(glm::dot(result, result)) ? std::optional(result) : std::nullopt;
+}
+
+std::optional<glm::dmat3> rotation(glm::dvec4 q) {
+  const double length = std::hypot(std::hypot(q.x, q.y), std::hypot(q.z, q.w));
+  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+  const double x = q.x / length, y = q.y / length, z = q.z / length, w = q.w / length;
+  // Columns: the images of the axes.
+  return glm::dmat3{{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)},
+                    {2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)},
+                    {2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)}};
 }
 
 std::vector<Placement> place_nodes(Document& document, const std::string& wanted) {

@@ -17,6 +17,10 @@ struct Placement {
 /// The unit vector along `v`, or nothing where `v` is zero or not finite.
 std::optional<glm::dvec3> unit(glm::dvec3 v);
 
+/// Rotation by a quaternion (x, y, z, w) of any length, or nothing where that is zero or not
+/// finite.
+std::optional<glm::dmat3> rotation(glm::dvec4 q);
+
 /// The nodes of a scene, parents first. `wanted` is its name or index; empty: the default scene
 /// (the first if the file names none, all root nodes if it has none). Throws Failure where there is
 /// no such scene, for cycles, nodes with two parents and transforms that are not finite.

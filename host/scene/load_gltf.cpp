@@ -8,6 +8,7 @@
 #include "alpha.hpp"
 #include "failure.hpp"
 #include "gltf_camera.hpp"
+#include "gltf_instancing.hpp"
 #include "gltf_light.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
@@ -20,14 +21,17 @@ using namespace gltf;
 constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 25;  // 4.6 GB of them
 constexpr int kExtremeExponent = 40;  // extents from 1e-12 to 1e12 keep all products in range
 
-/// A mesh's primitives where a node puts them.
-struct Instance {
-  const std::vector<Primitive>* primitives;
-  glm::dmat4 to_world;
-};
-
 /// The meshes that nodes use, each read once. Element addresses in a map are stable.
 using Meshes = std::map<int, std::vector<Primitive>>;
+
+/// A mesh's primitives as a node poses them, and the copies that it makes of them.
+struct Instance {
+  const std::vector<Primitive>* primitives;
+  Pose pose;
+  std::optional<Copies> copies;
+
+  std::uint64_t count() const { return copies ? copies->count() : 1; }
+};
 
 void check_version(const Place& root) {
   const tinygltf::Asset& asset = root.model().asset;
@@ -41,29 +45,44 @@ void check_version(const Place& root) {
 std::vector<Instance> place_meshes(const std::vector<Placement>& placements,
                                    MaterialUses& materials, Meshes& meshes) {
   std::vector<Instance> instances;
+  SkinReader skins(placements);
   for (const Placement& placement : placements) {
     const Element<tinygltf::Node>& node = placement.node;
-    if (node->skin != -1) node.warn("skins", "skins are ignored");
     if (node->mesh == -1) continue;
+    const auto element = follow(node.member("mesh"), node->mesh, node.model().meshes, "meshes");
     auto mesh = meshes.find(node->mesh);
     if (mesh == meshes.end()) {
-      const auto element = follow(node.member("mesh"), node->mesh, node.model().meshes, "meshes");
       mesh = meshes.emplace(node->mesh, read_primitives(element, materials)).first;
     }
-    instances.push_back({&mesh->second, placement.to_world});
+    instances.push_back({&mesh->second, pose_of(placement, element, skins), Copies::read(node)});
   }
   return instances;
+}
+
+/// Calls `visit` with every primitive as posed, copies included.
+template <typename Visitor>
+void for_each_posed(const std::vector<Instance>& instances, Visitor&& visit) {
+  for (const Instance& instance : instances) {
+    for (std::uint64_t i = 0; i < instance.count(); ++i) {
+      Pose pose = instance.pose;
+      if (instance.copies) pose.to_world = pose.to_world * instance.copies->to_node(i);
+      for (const Primitive& primitive : *instance.primitives)
+        visit(PosedPrimitive(primitive, pose));
+    }
+  }
 }
 
 std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, const Place& root) {
   std::uint64_t count = 0;
   for (const Instance& instance : instances) {
     for (const Primitive& primitive : *instance.primitives) {
-      count += primitive.triangle_count;
-      if (count > kMostTriangles) {
+      // Both factors are below 2^48; the first is at least 1.
+      const std::uint64_t most = (kMostTriangles - count) / instance.count();
+      if (primitive.triangle_count > most) {
         root.fail("the scene has more than " + std::to_string(kMostTriangles) + " triangles",
                   "simplify its meshes or use fewer instances");
       }
+      count += instance.count() * primitive.triangle_count;
     }
   }
   if (count == 0) root.fail("the scene has no triangles", "export some geometry");
@@ -72,11 +91,7 @@ std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, con
 
 Frame frame_of(const std::vector<Instance>& instances, const Place& root) {
   Box box;
-  for (const Instance& instance : instances) {
-    for (const Primitive& primitive : *instance.primitives) {
-      extend(box, primitive, instance.to_world);
-    }
-  }
+  for_each_posed(instances, [&](const PosedPrimitive& posed) { extend(box, posed); });
   const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
   const double extent = std::max({half.x, half.y, half.z});
   int exponent = 0;
@@ -89,16 +104,23 @@ Frame frame_of(const std::vector<Instance>& instances, const Place& root) {
   return {0.5 * box.low + 0.5 * box.high, std::ldexp(1.0, -exponent)};
 }
 
-void bake_triangles(const std::vector<Instance>& instances, const Place& root, Scene& scene,
-                    Log& log) {
-  scene.triangles.reserve(checked_triangle_count(instances, root));
-  scene.frame = frame_of(instances, root);
-  LeftOut left_out;
-  for (const Instance& instance : instances) {
-    for (const Primitive& primitive : *instance.primitives) {
-      bake(primitive, instance.to_world, scene.frame, scene.triangles, left_out);
-    }
+/// Needs the scene's frame and materials.
+void bake_triangles(const std::vector<Instance>& instances, std::uint64_t count, const Place& root,
+                    Scene& scene, Log& log) {
+  std::vector<DetailNeeds> needs;
+  Baked baked;
+  for (const Material& material : scene.materials) {
+    needs.push_back(needs_of(material));
+    baked.with_details = baked.with_details || needs.back().any();
   }
+  baked.triangles.reserve(count);
+  if (baked.with_details) baked.details.reserve(count);
+  for_each_posed(instances, [&](const PosedPrimitive& posed) {
+    bake(posed, scene.frame, needs.at(posed.primitive().material), baked);
+  });
+  scene.triangles = std::move(baked.triangles);
+  scene.details = std::move(baked.details);
+  const LeftOut& left_out = baked.left_out;
   scene.findings.triangles_without_area = left_out.without_area;
   scene.findings.triangles_too_small = left_out.too_small;
   if (left_out.without_area > 0) {
@@ -153,9 +175,11 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   Scene scene;
   scene.file = document.file;
   scene.findings.extensions = document.extensions;
-  bake_triangles(instances, root, scene, log);
-  measure_bounds(scene);
+  const std::uint64_t triangle_count = checked_triangle_count(instances, root);
+  scene.frame = frame_of(instances, root);
   read_materials(uses, root, scene);
+  bake_triangles(instances, triangle_count, root, scene, log);
+  measure_bounds(scene);
   settle_alpha_modes(scene);
   for (const Placement& placement : placements) {
     if (auto light = read_light(placement, scene.frame)) scene.punctual_lights.push_back(*light);

@@ -132,13 +132,14 @@ struct PunctualLight {
   float range = std::numeric_limits<float>::infinity();
 };
 
-/// A pinhole camera that looks along `forward`.
+/// A camera that looks along `forward`: a pinhole or, with `ymag`, orthographic.
 struct Camera {
   std::string name;
   glm::dvec3 position{0.0};                                                     ///< working frame
   glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, forward{0.0, 0.0, -1.0};  ///< orthonormal
   double yfov = 0.7853981633974483;  ///< full vertical angle, radians, in (0, pi)
   std::optional<double> aspect;      ///< width / height, where the file gives one
+  std::optional<double> ymag;        ///< orthographic: half the height seen, working frame
 };
 
 /// What the loader found beside what is rendered: for people, and for nothing else.

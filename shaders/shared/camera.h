@@ -1,4 +1,4 @@
-// The pinhole camera and the order in which pixels are worked off.
+// The camera, a pinhole or orthographic, and the order in which pixels are worked off.
 #ifndef PPM_SHARED_CAMERA_H
 #define PPM_SHARED_CAMERA_H
 
@@ -7,21 +7,46 @@
 
 PPM_NAMESPACE_BEGIN
 
-// Direction through a point of the film, in pixels from its top left corner. Unit.
-PPM_FN vec3 camera_direction(SceneConstants scene, vec2 film) {
+// An orthographic camera's footprints do not grow with distance. Its eye paths are taken to come
+// from so far away, in working units, that those of any scene do not either.
+#define PPM_CAMERA_FAR_AWAY 1e4f
+
+// A point of the film, in pixels from its top left corner, on the plane where the view's half
+// height is camera_tan_half_y; from the middle of that plane.
+PPM_FN vec3 camera_offset(SceneConstants scene, vec2 film) {
   float x = (2.0f * film.x / float(scene.width) - 1.0f) * scene.camera_tan_half_x;
   float y = (1.0f - 2.0f * film.y / float(scene.height)) * scene.camera_tan_half_y;
-  return normalize(scene.camera_forward + scene.camera_right * x + scene.camera_up * y);
+  return scene.camera_right * x + scene.camera_up * y;
 }
 
-// Area of one pixel on the image plane at distance 1.
+// Where the eye path through a point of the film starts.
+PPM_FN vec3 camera_origin(SceneConstants scene, vec2 film) {
+  if (scene.camera_kind != PPM_CAMERA_ORTHOGRAPHIC) return scene.camera_position;
+  return scene.camera_position + camera_offset(scene, film);
+}
+
+// Direction through a point of the film. Unit.
+PPM_FN vec3 camera_direction(SceneConstants scene, vec2 film) {
+  if (scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) return scene.camera_forward;
+  return normalize(scene.camera_forward + camera_offset(scene, film));
+}
+
+// How long a path is before it leaves the camera.
+PPM_FN float camera_distance(SceneConstants scene) {
+  return scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC ? PPM_CAMERA_FAR_AWAY : 0.0f;
+}
+
+// Area of one pixel on the plane of camera_offset: at distance 1, or orthographic at any.
 PPM_FN float pixel_area(SceneConstants scene) {
   return 4.0f * scene.camera_tan_half_x * scene.camera_tan_half_y /
          (float(scene.width) * float(scene.height));
 }
 
-// Solid angle of the pixel seen along a direction.
+// Solid angle of the pixel seen along a direction, from camera_distance before the camera.
 PPM_FN float pixel_solid_angle(SceneConstants scene, vec3 direction) {
+  if (scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) {
+    return pixel_area(scene) / (PPM_CAMERA_FAR_AWAY * PPM_CAMERA_FAR_AWAY);
+  }
   float cosine = dot(direction, scene.camera_forward);
   return pixel_area(scene) * cosine * cosine * cosine;
 }
@@ -35,14 +60,15 @@ struct CameraImportance {
 };
 
 // For paths that reach the camera from the scene; `direction` leaves the camera. (A lens connection
-// multiplies by the cosine at the camera: importance * cosine = pdf_solid_angle.)
+// multiplies by the cosine at the camera: importance * cosine = pdf_solid_angle.) No path meets an
+// orthographic camera by chance.
 PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) {
   CameraImportance result;
   result.film = vec2(0.0f);
   result.importance = 0.0f;
   result.pdf_solid_angle = 0.0f;
   float cosine = dot(direction, scene.camera_forward);
-  if (cosine <= 0.0f) return result;
+  if (cosine <= 0.0f || scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) return result;
   float x = dot(direction, scene.camera_right) / (cosine * scene.camera_tan_half_x);
   float y = dot(direction, scene.camera_up) / (cosine * scene.camera_tan_half_y);
   if (abs(x) > 1.0f || abs(y) > 1.0f) return result;

@@ -144,6 +144,9 @@ struct LightRecord {
   uint alias;            // else take this one
 };                       // 64
 
+#define PPM_CAMERA_PERSPECTIVE 0
+#define PPM_CAMERA_ORTHOGRAPHIC 1
+
 struct SceneConstants {
   vec3 grid_origin;  // of the BVH's boxes
   uint light_count;
@@ -152,7 +155,7 @@ struct SceneConstants {
   vec3 bounding_centre;  // sphere around all triangles, for directional lights
   float bounding_radius;
   vec3 camera_position;
-  float camera_tan_half_y;  // tan(yfov / 2)
+  float camera_tan_half_y;  // tan(yfov / 2); orthographic: half the height seen, working units
   vec3 camera_right;
   float camera_tan_half_x;  // idem horizontally
   vec3 camera_up;
@@ -164,7 +167,8 @@ struct SceneConstants {
   uint photon_bounce_cap;  // safety: scattering events after which a photon's path is cut and
                            // counted
   uint eye_bounce_cap;     // idem for eye paths
-};                         // 128
+  uint camera_kind;        // PPM_CAMERA_*
+};                         // 132
 
 // ---- Counters
 // ---------------------------------------------------------------------------------------------
@@ -291,7 +295,7 @@ struct EyePath {
   uint skip;
   uint code;          // which branch was taken at each split, first split in the highest bit
   uint splits;        // bits of code in use
-  float distance;     // length of the path so far, working units
+  float distance;     // length of the path so far, working units, from camera_distance on
   float solid_angle;  // of its pixel
 };                    // 64
 
@@ -426,7 +430,7 @@ static_assert(sizeof(TextureUse) == 16 * PPM_TEXTURE_USE_TEXELS);
 static_assert(sizeof(MaterialRecord) == 16 * PPM_MATERIAL_TEXELS);
 static_assert(sizeof(TextureRecord) == 16);
 static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);
-static_assert(sizeof(SceneConstants) == 128);
+static_assert(sizeof(SceneConstants) == 132);
 static_assert(sizeof(PhotonPath) == 48);
 static_assert(sizeof(BatchWords) == 4 * (4 + PPM_TRACE_ROUNDS + 1 + 2 * PPM_BATCH_LIMIT));
 static_assert(sizeof(GridConstants) == 36);

@@ -33,7 +33,8 @@ scene::Scene closed_box(Log& /*log*/) {
   scene::PunctualLight light;
   light.intensity = glm::vec3(1.0f);
   scene.punctual_lights.push_back(light);
-  scene.cameras.push_back({"inside", {0.0, 0.0, 0.25}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1.0, {}});
+  scene.cameras.push_back(
+      {"inside", {0.0, 0.0, 0.25}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1.0, {}, {}});
   return scene;
 }
 

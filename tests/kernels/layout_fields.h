@@ -32,7 +32,7 @@
   F3(r.grid_origin) U1(r.light_count) F3(r.grid_step) F1(r.total_power) F3(r.bounding_centre) \
   F1(r.bounding_radius) F3(r.camera_position) F1(r.camera_tan_half_y) F3(r.camera_right) \
   F1(r.camera_tan_half_x) F3(r.camera_up) U1(r.width) F3(r.camera_forward) U1(r.height) \
-  U1(r.seed) U1(r.max_depth) U1(r.photon_bounce_cap) U1(r.eye_bounce_cap)
+  U1(r.seed) U1(r.max_depth) U1(r.photon_bounce_cap) U1(r.eye_bounce_cap) U1(r.camera_kind)
 #define PPM_FIELDS_PHOTON_PATH(r) \
   F3(r.origin) U1(r.path) F3(r.direction) U1(r.state) F3(r.flux) U1(r.skip)
 #define PPM_FIELDS_PHOTON_PUSH(r) \

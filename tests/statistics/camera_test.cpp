@@ -12,6 +12,7 @@
 #include "chi_squared.hpp"
 #include "grid_counts.hpp"
 #include "quadrature.hpp"
+#include "shared/geometry.h"
 
 namespace ppm::shared {
 namespace {
@@ -125,6 +126,40 @@ TEST(Camera, DensityIntegratesToSolidAngles) {
     const double pixel = corner_solid_angle(x1, y1) - corner_solid_angle(x0, y1) -
                          corner_solid_angle(x1, y0) + corner_solid_angle(x0, y0);
     EXPECT_NEAR(over(dvec2(0.0), dvec2(1.0)) / pixel, 1.0, 1e-5) << view.width;
+  }
+}
+
+// Parallel paths from a rectangle of the size asked for.
+TEST(OrthographicCamera, LooksAlongParallels) {
+  SceneConstants scene = looking({8, 6, 4.0f, 3.0f}, vec3(0, 0, -1), vec3(0, 1, 0));
+  scene.camera_kind = PPM_CAMERA_ORTHOGRAPHIC;
+  scene.camera_position = vec3(1, 2, 3);
+  for (const auto& [film, origin] : {std::pair(vec2(0, 0), vec3(-3, 5, 3)),
+                                     {vec2(8, 6), vec3(5, -1, 3)},
+                                     {vec2(4, 3), vec3(1, 2, 3)},
+                                     {vec2(5, 1), vec3(2, 4, 3)}}) {
+    EXPECT_LT(length(camera_origin(scene, film) - origin), 1e-6f);
+    EXPECT_EQ(camera_direction(scene, film), vec3(0, 0, -1));
+  }
+  EXPECT_EQ(camera_importance(scene, vec3(0, 0, -1)).importance, 0.0f);
+}
+
+// Its pixels cover the same area at any distance; a pinhole's grow with its square. Paths in the
+// scene are a few units long, so that PPM_CAMERA_FAR_AWAY lets them grow by a few parts in 10^4.
+TEST(OrthographicCamera, FootprintsDoNotGrow) {
+  SceneConstants scene = looking({64, 48, 0.4f, 0.3f}, vec3(0, 0, -1), vec3(0, 1, 0));
+  const double area = 0.8 / 64 * 0.6 / 48;
+  const auto footprint = [&](float distance) {
+    const vec3 direction = camera_direction(scene, vec2(32, 24));
+    const double radius = footprint_radius(pixel_solid_angle(scene, direction),
+                                           camera_distance(scene) + distance, 1.0f);
+    return std::numbers::pi * radius * radius;
+  };
+  EXPECT_NEAR(footprint(1.0f) / area, 1.0, 1e-5);
+  EXPECT_NEAR(footprint(3.0f) / area, 9.0, 1e-4);
+  scene.camera_kind = PPM_CAMERA_ORTHOGRAPHIC;
+  for (const float distance : {0.0f, 0.01f, 1.0f, 3.0f}) {
+    EXPECT_NEAR(footprint(distance) / area, 1.0, 1e-3) << distance;
   }
 }
 

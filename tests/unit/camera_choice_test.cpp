@@ -72,6 +72,18 @@ TEST(CameraChoice, NamesGoBeforeIndices) {
   EXPECT_EQ(choose(options, scene).yfov, 1.0);
 }
 
+// What turns and moves a camera leaves its kind alone; an angle asks for a pinhole.
+TEST(CameraChoice, OrthographicCamerasStayUntilAnAngleIsAskedFor) {
+  scene::Scene scene = two_cameras();
+  scene.cameras[0].ymag = 0.5;
+  RenderOptions options;
+  options.camera_position = {10.0, 20.0, 34.0};
+  options.camera_target = {14.0, 20.0, 34.0};
+  EXPECT_EQ(choose(options, scene).ymag, 0.5);
+  options.camera_fov = 60.0;
+  EXPECT_FALSE(choose(options, scene).ymag);
+}
+
 TEST(CameraChoice, PositionAndTargetAreInWorldUnits) {
   RenderOptions options;
   options.camera_position = {10.0, 20.0, 34.0};  // one unit along z in the working frame

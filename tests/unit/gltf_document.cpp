@@ -1,9 +1,7 @@
 #include "gltf_document.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <fstream>
 #include <stdexcept>
 
@@ -240,18 +238,6 @@ void write_file(const std::filesystem::path& file, const Bytes& bytes) {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   write_file(file, Bytes(text.begin(), text.end()));
-}
-
-TemporaryFolder::TemporaryFolder() {
-  static std::atomic<int> count = 0;
-  path_ = std::filesystem::temp_directory_path() /
-          ("ppm-unit-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-  std::filesystem::create_directories(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 scene::Scene load(const GltfDocument& document, Log& log) {

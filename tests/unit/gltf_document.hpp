@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "load_gltf.hpp"
+#include "temporary_folder.hpp"
 
 namespace ppm::test {
 
@@ -87,20 +88,6 @@ extern const char* const kGreyJpegBase64;
 std::string base64(const Bytes& bytes);
 void write_file(const std::filesystem::path& file, const Bytes& bytes);
 void write_file(const std::filesystem::path& file, const std::string& text);
-
-/// An empty folder that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Writes the document as a .gltf file and loads it, quietly.
 scene::Scene load(const GltfDocument& document, Log& log);

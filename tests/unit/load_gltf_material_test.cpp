@@ -190,11 +190,6 @@ std::vector<Unread> unread_features() {
       for_all_materials(d, [&](json& m) { m["extensions"][name] = value; });
     };
   };
-  const auto in_primitives = [](const char* name, json value) {
-    return [=](GltfDocument& d) {
-      for (json& mesh : d.root["meshes"]) mesh["primitives"][0][name] = value;
-    };
-  };
   const json texture = {{"index", 0}};
   return {
       {"occlusion", member("occlusionTexture", texture), "occlusionTexture"},
@@ -212,12 +207,6 @@ std::vector<Unread> unread_features() {
          d.root["extensionsUsed"] = {"EXT_b", "KHR_materials_ior", "EXT_a"};
        },
        "EXT_a, EXT_b"},
-      {"morph targets", in_primitives("targets", json::array({{{"POSITION", 0}}})), "morph"},
-      {"skins",
-       [](GltfDocument& d) {
-         for (json& node : d.root["nodes"]) node["skin"] = 0;
-       },
-       "skins"},
       {"animations",
        [](GltfDocument& d) {
          d.root["animations"] = {json::object(), json::object()};

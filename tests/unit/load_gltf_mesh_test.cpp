@@ -203,15 +203,15 @@ TEST(LoadGltf, NormalisedIntegers) {
 TEST(LoadGltf, VertexColoursOfEveryType) {
   GltfDocument document;
   document.triangle()["attributes"]["COLOR_0"] =
-      document.accessor<float>({0.25f, 0.5f, 1, 0, 0, 0, 0, 1, 1, 1, 1, 1}, "VEC4");
-  document.triangle()["attributes"]["COLOR_0"] =
-      document.accessor<std::uint16_t>({65535, 0, 13107, 9, 0, 0, 0, 9, 0, 0, 0, 9}, "VEC4", true);
+      document.accessor<float>({0.25f, 0.5f, 1, 0.75f, 0, 0, 0, 1, 1, 1, 1, 1}, "VEC4");
+  document.triangle()["attributes"]["COLOR_0"] = document.accessor<std::uint16_t>(
+      {65535, 0, 13107, 32768, 0, 0, 0, 9, 0, 0, 0, 9}, "VEC4", true);
   document.triangle()["attributes"]["COLOR_0"] =
       document.accessor<float>({-1, 2, 0.5f, 0, 0, 0, 0, 0, 0}, "VEC3");
   Log log(Verbosity::quiet);
   const Scene scene = load(document, log);
-  EXPECT_EQ(scene.triangles[0].corners[0].color, glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
-  EXPECT_EQ(scene.triangles[1].corners[0].color, glm::vec4(1.0f, 0.0f, 0.2f, 1.0f));
+  EXPECT_EQ(scene.triangles[0].corners[0].color, glm::vec4(0.25f, 0.5f, 1.0f, 0.75f));
+  EXPECT_EQ(scene.triangles[1].corners[0].color, glm::vec4(1.0f, 0.0f, 0.2f, 32768.0f / 65535.0f));
   EXPECT_EQ(scene.triangles[2].corners[0].color, glm::vec4(0.0f, 1.0f, 0.5f, 1.0f));
   EXPECT_EQ(warnings_with(log, "colours"), 1u);
 }
