@@ -107,6 +107,11 @@ json rough(json glass_material) {
   return glass_material;
 }
 
+json with_extension(json material, const char* extension, json content) {
+  material["extensions"][extension] = std::move(content);
+  return material;
+}
+
 json half_transparent(json glass_material) {
   glass_material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5;
   return glass_material;
@@ -197,6 +202,19 @@ const Guest kGuests[] = {
     {"half_transparent_solid", kBallBias,
      [](GltfWriter& w) {
        w.mesh(icosphere(4, Shading::flat), w.material(half_transparent(glass(1.5))), turned(0.35));
+     }},
+    // A coat takes nothing from a white base under it, and colours that part meet again.
+    {"coated_white_ball", kBallBias,
+     [](GltfWriter& w) {
+       const json coated = with_extension(lambert(glm::dvec3(1.0)), "KHR_materials_clearcoat",
+                                          {{"clearcoatFactor", 1.0}});
+       w.mesh(icosphere(4, Shading::flat), w.material(coated), turned(0.35));
+     }},
+    {"dispersive_cube", 0.0,
+     [](GltfWriter& w) {
+       const json prism =
+           with_extension(glass(1.6), "KHR_materials_dispersion", {{"dispersion", 5.0}});
+       w.mesh(unit_box(), w.material(prism), turned(0.35));
      }},
     // Rough glass loses what would meet a second facet: at this roughness less than 0.5 % of what
     // arrives steeper than 6 degrees, within a ball a few times.
