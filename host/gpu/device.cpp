@@ -184,6 +184,13 @@ const std::map<std::string, KernelTime>& Device::times() const {
 const std::map<std::string, KernelTime>& Device::region_times() const {
   return implementation_->region_times;
 }
+bool Device::shares_host_memory() const {
+  const VkPhysicalDeviceType type = implementation_->physical.properties.deviceType;
+  return type == VK_PHYSICAL_DEVICE_TYPE_CPU || type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
+}
+std::uint64_t Device::free_bytes() const {
+  return free_device_bytes(implementation_->physical);
+}
 std::uint64_t Device::allocated_bytes() const {
   return implementation_->allocated_bytes;
 }

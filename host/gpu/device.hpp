@@ -78,6 +78,10 @@ class Device {
   /// The same by region (region.hpp); "" is what ran outside of any.
   const std::map<std::string, KernelTime>& region_times() const;
 
+  /// Whether what is allocated on the device is taken from the host's memory.
+  bool shares_host_memory() const;
+  /// What the driver says is left of its largest heap (VK_EXT_memory_budget), or its size.
+  std::uint64_t free_bytes() const;
   std::uint64_t allocated_bytes() const;  ///< now, by our own account
   std::uint64_t peak_bytes() const;
   /// Tells of the first buffer that went to host memory because the device's was full; empty: none

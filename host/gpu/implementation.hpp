@@ -103,6 +103,7 @@ struct Kernel::Implementation {
   Device::Implementation& device;
   std::string name;
   Reflection reflection;
+  std::map<std::uint32_t, std::uint32_t> descriptor_counts;  ///< by binding
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkShaderModule module = VK_NULL_HANDLE;
@@ -115,6 +116,8 @@ struct Kernel::Implementation {
   bool has_run = false;
 
  private:
+  /// How many descriptors each binding has; `constants` gets those that are missing.
+  void count_descriptors(std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
   void check_limits() const;
   void create_layouts();
   /// What the device's profile says about the constants that the shader leaves to it.

@@ -26,9 +26,14 @@ void Kernel::Implementation::open(
     const Shader& shader, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants) {
   name = shader.name;
   reflection = reflect(shader.words, name);
+  // What the kernel does not declare is not its business.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  for (const auto& constant : constants) {
+    if (reflection.constants.contains(constant.first)) all.push_back(constant);
+  }
+  count_descriptors(all);
   check_limits();
   create_layouts();
-  auto all = constants;
   add_profile(all);
   create_pipeline(shader, all);
 }
@@ -46,21 +51,41 @@ void Kernel::Implementation::add_profile(
   add(PPM_SPEC_WORKGROUP_SIZE, reflection.workgroup_size);
 }
 
+void Kernel::Implementation::count_descriptors(
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants) {
+  for (const auto& [binding, type] : reflection.bindings) descriptor_counts[binding] = 1;
+  // Of every array that is declared, in use or not, lest the driver believe in its default length.
+  for (const std::uint32_t id : reflection.constants) {
+    if (id < PPM_SPEC_SEGMENTS || id >= PPM_SPEC_SEGMENTS + PPM_BINDING_LIMIT) continue;
+    const auto given =
+        std::ranges::find(constants, id, &std::pair<std::uint32_t, std::uint32_t>::first);
+    if (given == constants.end()) constants.emplace_back(id, 1);
+  }
+  for (const auto& [binding, id] : reflection.arrays) {
+    const auto given =
+        std::ranges::find(constants, id, &std::pair<std::uint32_t, std::uint32_t>::first);
+    PPM_ASSERT(given != constants.end(), "kernel " + name + ", binding " + std::to_string(binding) +
+                                             ": an array of unknown length");
+    descriptor_counts[binding] = given->second;
+  }
+}
+
 void Kernel::Implementation::check_limits() const {
   const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
   std::uint32_t storage = 0, texels = 0;
   for (const auto& [binding, type] : reflection.bindings) {
     PPM_ASSERT(binding < PPM_BINDING_LIMIT,
                "kernel " + name + ", binding " + std::to_string(binding));
-    if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) ++storage;
-    if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) ++texels;
+    const std::uint32_t count = descriptor_counts.at(binding);
+    if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) storage += count;
+    if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) texels += count;
   }
   if (storage > limits.maxPerStageDescriptorStorageBuffers ||
       texels > limits.maxPerStageDescriptorSampledImages) {
     throw Failure(device.name(), "kernel " + name,
                   "its " + std::to_string(storage) + " storage and " + std::to_string(texels) +
                       " texel buffers are more than the device binds",
-                  "choose another device with --device");
+                  "use a smaller scene, or choose another device with --device");
   }
 }
 
@@ -70,7 +95,7 @@ void Kernel::Implementation::create_layouts() {
     VkDescriptorSetLayoutBinding binding{};
     binding.binding = number;
     binding.descriptorType = type;
-    binding.descriptorCount = 1;
+    binding.descriptorCount = descriptor_counts.at(number);
     binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
     bindings.push_back(binding);
   }

@@ -4,10 +4,11 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "buffer.hpp"
+#include "segmented_buffer.hpp"
 #include "shader.hpp"
 #include "shared/bindings.h"
 
@@ -17,15 +18,21 @@ namespace ppm::gpu {
 /// use.
 class BindingTable {
  public:
-  void set(std::uint32_t binding, const Buffer& buffer) { buffers_.at(binding) = &buffer; }
-  const Buffer* get(std::uint32_t binding) const { return buffers_.at(binding); }
+  void set(std::uint32_t binding, const Buffer& buffer) { buffers_.at(binding) = {&buffer, 1}; }
+  /// Segments, for kernels that were made for so many of them.
+  void set(std::uint32_t binding, const SegmentedBuffer& buffer) {
+    buffers_.at(binding) = buffer.segments();
+  }
+  const Buffer* get(std::uint32_t binding) const { return buffers_.at(binding).data(); }
+  std::span<const Buffer> segments(std::uint32_t binding) const { return buffers_.at(binding); }
 
  private:
-  std::array<const Buffer*, PPM_BINDING_LIMIT> buffers_{};
+  std::array<std::span<const Buffer>, PPM_BINDING_LIMIT> buffers_{};
 };
 
 /// A pipeline whose set layout and push constant size come from its SPIR-V.
-/// Specialisation constants are given as (constant_id, 32-bit value).
+/// Specialisation constants are given as (constant_id, 32-bit value). Buffers in segments have one
+/// unless PPM_SPEC_SEGMENTS + binding says otherwise.
 class Kernel {
  public:
   Kernel(Device& device, const Shader& shader,

@@ -60,6 +60,16 @@ std::uint64_t largest_device_heap(VkPhysicalDevice handle) {
   return bytes;
 }
 
+bool has_extension(VkPhysicalDevice handle, std::string_view name) {
+  const auto extensions =
+      enumerate<VkExtensionProperties>([&](std::uint32_t* count, VkExtensionProperties* data) {
+        return vkEnumerateDeviceExtensionProperties(handle, nullptr, count, data);
+      });
+  return std::ranges::any_of(extensions, [&](const VkExtensionProperties& extension) {
+    return name == extension.extensionName;
+  });
+}
+
 // The first family that computes and takes the time; else the first that computes.
 void choose_queue(PhysicalDevice& device) {
   std::uint32_t count = 0;
@@ -168,6 +178,24 @@ std::string join(const std::vector<std::string>& parts) {
 
 }  // namespace
 
+std::uint64_t free_device_bytes(const PhysicalDevice& device) {
+  if (!device.tells_budget) return device.description.memory_bytes;
+  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
+  budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
+  VkPhysicalDeviceMemoryProperties2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
+  memory.pNext = &budget;
+  vkGetPhysicalDeviceMemoryProperties2(device.handle, &memory);
+  std::uint64_t bytes = 0;
+  for (std::uint32_t i = 0; i < memory.memoryProperties.memoryHeapCount; ++i) {
+    const VkMemoryHeap& heap = memory.memoryProperties.memoryHeaps[i];
+    if (!(heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)) continue;
+    const VkDeviceSize used = std::min(budget.heapUsage[i], budget.heapBudget[i]);
+    bytes = std::max<std::uint64_t>(bytes, budget.heapBudget[i] - used);
+  }
+  return bytes;
+}
+
 PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   PhysicalDevice device;
   device.handle = handle;
@@ -180,6 +208,7 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   description.memory_bytes = largest_device_heap(handle);
   if (device.properties.apiVersion >= VK_API_VERSION_1_2) {
     describe_1_2(device);
+    device.tells_budget = has_extension(handle, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   } else {
     description.obstacles.push_back("it offers Vulkan " + description.api_version +
                                     ", but 1.2 is needed");

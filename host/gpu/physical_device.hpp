@@ -20,8 +20,12 @@ struct PhysicalDevice {
   std::uint32_t subgroup_size = 0;
   std::uint32_t queue_family = 0;
   std::uint32_t timestamp_bits = 0;
+  bool tells_budget = false;  ///< VK_EXT_memory_budget
   DeviceDescription description;
 };
+
+/// What is left of the largest device-local heap, as far as the driver tells; else its size.
+std::uint64_t free_device_bytes(const PhysicalDevice& device);
 
 PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index);
 std::vector<PhysicalDevice> describe_all(const Instance& instance);

@@ -173,7 +173,8 @@ void Recorder::Implementation::add_times() {
 }
 
 VkDescriptorSet Recorder::Implementation::allocate_set(const Kernel::Implementation& kernel) {
-  const auto count = static_cast<std::uint32_t>(kernel.reflection.bindings.size());
+  std::uint32_t count = 0;
+  for (const auto& [binding, length] : kernel.descriptor_counts) count += length;
   if (sets == kMaxSets || set_descriptors + count > kMaxDescriptors) {
     flush();
     begin();
@@ -193,29 +194,39 @@ VkDescriptorSet Recorder::Implementation::allocate_set(const Kernel::Implementat
 VkDescriptorSet Recorder::Implementation::make_set(const Kernel::Implementation& kernel,
                                                    const BindingTable& table) {
   const auto& bindings = kernel.reflection.bindings;
-  const auto count = static_cast<std::uint32_t>(bindings.size());
   const VkDescriptorSet set = allocate_set(kernel);
-  std::vector<VkDescriptorBufferInfo> ranges(count);
+  std::vector<VkDescriptorBufferInfo> ranges;
+  std::vector<VkBufferView> views;
+  ranges.reserve(set_descriptors);  // never fewer than are added: pointers stay valid
+  views.reserve(set_descriptors);
   std::vector<VkWriteDescriptorSet> writes;
   for (const auto& [binding, type] : bindings) {
-    const Buffer* const buffer = table.get(binding);
+    const std::span<const Buffer> buffers = table.segments(binding);
     const std::string where = "kernel " + kernel.name + ", binding " + std::to_string(binding);
-    PPM_ASSERT(buffer && *buffer, where + ": no buffer is bound");
-    const Buffer::Implementation& bound = *buffer->implementation();
-    PPM_ASSERT(&bound.device == &device, where + ": " + bound.name + " belongs to another device");
-    PPM_ASSERT(bound.serves_as(type), where + ": " + bound.name + " was made for another use");
-    ranges[writes.size()] = {bound.raw.handle(), 0, VK_WHOLE_SIZE};
+    PPM_ASSERT(!buffers.empty() && buffers.front(), where + ": no buffer is bound");
+    PPM_ASSERT(buffers.size() == kernel.descriptor_counts.at(binding),
+               where + ": made for " + std::to_string(kernel.descriptor_counts.at(binding)) +
+                   " segments, bound are " + std::to_string(buffers.size()));
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
     write.dstBinding = binding;
-    write.descriptorCount = 1;
+    write.descriptorCount = static_cast<std::uint32_t>(buffers.size());
     write.descriptorType = type;
-    write.pBufferInfo = &ranges[writes.size()];
-    write.pTexelBufferView = &bound.view;
+    write.pBufferInfo = ranges.data() + ranges.size();
+    write.pTexelBufferView = views.data() + views.size();
+    for (const Buffer& buffer : buffers) {
+      const Buffer::Implementation& bound = *buffer.implementation();
+      PPM_ASSERT(&bound.device == &device,
+                 where + ": " + bound.name + " belongs to another device");
+      PPM_ASSERT(bound.serves_as(type), where + ": " + bound.name + " was made for another use");
+      ranges.push_back({bound.raw.handle(), 0, VK_WHOLE_SIZE});
+      views.push_back(bound.view);
+    }
     writes.push_back(write);
   }
-  vkUpdateDescriptorSets(device.handle, count, writes.data(), 0, nullptr);
+  vkUpdateDescriptorSets(device.handle, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                         nullptr);
   return set;
 }
 

@@ -216,7 +216,7 @@ Reflection reflect(std::span<const std::uint32_t> words, const std::string& name
   reflection.constants = module.constants;
   for (const Instruction variable : module.variables) {
     const std::uint32_t id = variable[2], storage_class = variable[3];
-    const std::uint32_t type = module.definitions.at(variable[1])[3];
+    std::uint32_t type = module.definitions.at(variable[1])[3];
     if (storage_class == kPushConstant) reflection.push_bytes = size_of(module, type, 0);
     if (storage_class != kUniformConstant && storage_class != kUniform &&
         storage_class != kStorageBuffer) {
@@ -227,6 +227,13 @@ Reflection reflect(std::span<const std::uint32_t> words, const std::string& name
     const std::uint32_t binding = decorations.at(kBinding);
     PPM_ASSERT(decorations.at(kSet) == 0,
                "shader " + name + " uses set " + std::to_string(decorations.at(kSet)));
+    if (const Instruction array = module.definitions.at(type); opcode(array) == kTypeArray) {
+      const auto length = module.decorations.find(array[3]);
+      PPM_ASSERT(length != module.decorations.end() && length->second.contains(kSpecId),
+                 "shader " + name + " has an array of buffers of fixed length");
+      reflection.arrays.emplace(binding, length->second.at(kSpecId));
+      type = array[2];
+    }
     const VkDescriptorType descriptor = descriptor_type(module, storage_class, type, name);
     const auto [entry, is_new] = reflection.bindings.emplace(binding, descriptor);
     PPM_ASSERT(is_new || entry->second == descriptor,

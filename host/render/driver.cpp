@@ -129,6 +129,16 @@ Outcome drive(Integrator& integrator, const Settings& settings, const Budget& bu
                   statistics_json(settings, circumstances, statistics, seconds, log.warnings()));
     });
   }
+  const auto second = [&](const char* stage) {
+    const auto entry = statistics.seconds.find(stage);
+    return entry == statistics.seconds.end() ? 0.0 : entry->second;
+  };
+  log.note(fmt::format(
+      "load {:.2f} s, tree {:.2f} s, upload {:.2f} s, eye paths {:.2f} s, pilot {:.2f} s, {:.2f} s "
+      "in all; {} triangles, {} hit points",
+      circumstances.load_seconds, second("bvh"), second("upload"), second("eye"), second("pilot"),
+      circumstances.seconds_before + clock_seconds() - start, statistics.triangles,
+      statistics.hit_points));
   if (failure) throw *failure;
   return complete ? Outcome::complete : Outcome::interrupted;
 }

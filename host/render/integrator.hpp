@@ -33,6 +33,8 @@ struct Settings {
   scene::Camera camera;
   std::uint64_t tile_hits =
       1u << 20;  ///< hit points a tile holds at most; never changes the picture
+  std::uint64_t segment_bytes = std::uint64_t{1}
+                                << 27;  ///< of scene buffers, at most; never changes the picture
   std::uint64_t photon_capacity =
       0;  ///< photons stored at a time at most; 0: what suits the device
   std::uint32_t passes_in_flight = 0;  ///< photon passes that the device is given at a time; 0:
@@ -54,7 +56,8 @@ struct Statistics {
          initial_radius_max = 0.0;  ///< world units
   std::uint64_t paths_cut = 0;
   std::map<std::string, std::uint64_t> rejected;  ///< non_finite, clamped, overflow
-  std::map<std::string, double> seconds;  ///< pipelines, pilot, eye, photons, grid, update, resolve
+  std::map<std::string, double>
+      seconds;  ///< bvh, upload, pipelines, pilot, eye, photons, grid, update, resolve
   std::map<std::string, double> kernel_seconds;  ///< device time by kernel
   std::vector<double> pass_seconds;              ///< wall time of each pass
 };
@@ -96,7 +99,8 @@ class Integrator {
 };
 
 /// Creates the integrator of that name ("ppm"); throws Failure on an unknown one.
-/// `scene` and `device` must outlive it.
+/// `scene` and `device` must outlive it; of the scene's arrays (scene::release_arrays) only
+/// save_state and restore_state make use again.
 std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene,
                                             gpu::Device& device, Log& log, unsigned threads);
 

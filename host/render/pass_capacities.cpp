@@ -18,8 +18,16 @@ constexpr std::uint64_t kGridEntriesAPass = 1u << 20;
 
 }  // namespace
 
-PassCapacities pass_capacities(const Settings& settings, const gpu::Device& device) {
-  const gpu::DeviceProfile& profile = device.profile();
+PassLimits PassLimits::of(const gpu::Device& device) {
+  return {device.profile(), device.max_storage_bytes()};
+}
+
+PassLimits PassLimits::of_cpu() {
+  return {gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_CPU), std::uint64_t{1} << 27};
+}
+
+PassCapacities pass_capacities(const Settings& settings, const PassLimits& limits) {
+  const gpu::DeviceProfile& profile = limits.profile;
   const std::uint64_t emitted = settings.photons_per_pass;
   // Who asks for passes in flight gets room for them.
   const std::uint64_t asked = std::min(settings.passes_in_flight, std::uint32_t{PPM_BATCH_LIMIT});
@@ -35,7 +43,7 @@ PassCapacities pass_capacities(const Settings& settings, const gpu::Device& devi
                          kFewestPhotons}));
   capacities.grid_entries = std::max(profile.grid_entries, asked * kGridEntriesAPass);
 
-  const std::uint64_t bytes = device.max_storage_bytes();
+  const std::uint64_t bytes = limits.storage_bytes;
   capacities.paths = std::min(capacities.paths, bytes / sizeof(shared::PhotonPath));
   capacities.photons = std::min(capacities.photons, bytes / 16);
   capacities.grid_entries = std::min(capacities.grid_entries, bytes / 4 - 1);

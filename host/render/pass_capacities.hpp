@@ -12,7 +12,17 @@ struct PassCapacities {
   std::uint64_t paths, photons, grid_entries;
 };
 
+/// What of a device decides them.
+struct PassLimits {
+  gpu::DeviceProfile profile;
+  std::uint64_t storage_bytes;  ///< of one buffer, at most
+
+  static PassLimits of(const gpu::Device& device);
+  /// Of lavapipe, without asking it.
+  static PassLimits of_cpu();
+};
+
 /// What the settings ask for, or what suits the device; within its limits.
-PassCapacities pass_capacities(const Settings& settings, const gpu::Device& device);
+PassCapacities pass_capacities(const Settings& settings, const PassLimits& limits);
 
 }  // namespace ppm::render

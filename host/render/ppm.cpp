@@ -27,6 +27,19 @@ gpu::BindingTable scene_table(const SceneBuffers& buffers) {
   return table;
 }
 
+SceneTraits traits_with_segments(const scene::Scene& scene, const SceneBuffers& buffers) {
+  SceneTraits traits = traits_of(scene);
+  buffers.add_segments(traits);
+  return traits;
+}
+
+std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
+                                          gpu::Device& device) {
+  if (may_need_segments(scene, gpu::segment_size(device, settings.segment_bytes))) return {};
+  return std::async(std::launch::async,
+                    [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); });
+}
+
 }  // namespace
 
 PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene,
@@ -35,23 +48,23 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       scene_(scene),
       device_(device),
       log_(log),
-      eye_kernels_(
-          std::async(std::launch::async,
-                     [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); })),
+      eye_kernels_(begin_eye_kernels(scene, settings, device)),
       buffers_(scene, settings, device, threads),
+      traits_(traits_with_segments(scene, buffers_)),
       table_(scene_table(buffers_)),
       pipelines_begin_(clock_seconds()),
-      capacities_(pass_capacities(settings, device)),
-      tracer_(device, table_, traits_of(scene), capacities_.photons, capacities_.paths),
+      capacities_(pass_capacities(settings, PassLimits::of(device))),
+      tracer_(device, table_, traits_, capacities_.photons, capacities_.paths),
       grid_(device, scene.bounds_min, scene.bounds_max, capacities_.photons, 0,
             capacities_.grid_entries),
-      estimator_(device, table_, traits_of(scene), tile_capacity(settings, device)),
+      estimator_(device, table_, traits_, tile_capacity(settings, device)),
       batch_(device, tracer_, grid_, estimator_),
       chunk_paths_(
           static_cast<std::uint32_t>(std::min(settings.photons_per_pass, tracer_.path_capacity()))),
       batch_limit_(capacities_.passes) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
+  statistics_.seconds["upload"] = buffers_.upload_seconds();
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
   tracer_.bind_photons(photons_);
@@ -74,7 +87,8 @@ bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
   const gpu::Region region(device_, "eye");
-  const EyeKernels kernels = eye_kernels_.get();
+  const EyeKernels kernels =
+      eye_kernels_.valid() ? eye_kernels_.get() : EyeKernels(device_, traits_);
   EyePass eye(device_, kernels, table_, settings_);
   const std::uint32_t all_pixels = settings_.width * settings_.height;
   std::uint32_t pixels = 0;

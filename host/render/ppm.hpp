@@ -71,8 +71,10 @@ class PpmIntegrator final : public Integrator {
   const scene::Scene& scene_;
   gpu::Device& device_;
   Log& log_;
-  std::future<EyeKernels> eye_kernels_;  // made while the tree is built and the others are made
+  std::future<EyeKernels> eye_kernels_;  // made while the tree is built and the others are made,
+                                         // but in large scenes, whose buffers must be known
   SceneBuffers buffers_;
+  SceneTraits traits_;
   gpu::BindingTable table_;
   double pipelines_begin_;  // reading of the clock, between the members that are timed
   PassCapacities capacities_;

@@ -118,6 +118,7 @@ std::uint64_t PpmIntegrator::fingerprint() const {
   hash.add(static_cast<std::uint32_t>(settings_.filter));
   hash.add(&buffers_.constants(),
            sizeof(shared::SceneConstants));  // camera, seed, depth, lights' power
+  PPM_ASSERT(!scene_.triangles.empty(), "the scene's arrays were released");
   for (const scene::Triangle& triangle : scene_.triangles) {
     for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
     hash.add(triangle.material);

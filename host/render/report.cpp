@@ -91,8 +91,8 @@ std::string statistics_json(const Settings& settings, const Circumstances& circu
   json["initial_radius"] = {{"min", statistics.initial_radius_min},
                             {"median", statistics.initial_radius_median},
                             {"max", statistics.initial_radius_max}};
-  for (const char* stage : {"load", "bvh", "pipelines", "pilot", "eye", "photons", "grid", "update",
-                            "resolve", "write", "total"}) {
+  for (const char* stage : {"load", "bvh", "upload", "pipelines", "pilot", "eye", "photons", "grid",
+                            "update", "resolve", "write", "total"}) {
     json["seconds"][stage] = 0.0;
   }
   for (const auto& [stage, time] : statistics.seconds) json["seconds"][stage] = time;

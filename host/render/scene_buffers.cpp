@@ -1,12 +1,13 @@
 #include "scene_buffers.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include "failure.hpp"
 #include "light_table.hpp"
+#include "record_upload.hpp"
 #include "shared/bindings.h"
 #include "shared/geometry.h"
+#include "stopwatch.hpp"
 #include "texture_records.hpp"
 
 namespace ppm::render {
@@ -51,6 +52,15 @@ shared::MaterialRecord material_record(const scene::Material& material) {
                         material.attenuation_distance;
   }
   return record;
+}
+
+shared::TrianglePositions position_record(const scene::Scene& scene,
+                                          const scene::Triangle& triangle) {
+  const bool is_opaque = scene.materials[triangle.material].alpha_mode == scene::AlphaMode::opaque;
+  const auto& corners = triangle.corners;
+  return {corners[0].position, triangle.material | (is_opaque ? 0u : PPM_HAS_COVERAGE),
+          corners[1].position, 0,
+          corners[2].position, 0};
 }
 
 shared::TriangleShading shading_record(const scene::Triangle& triangle) {
@@ -101,17 +111,28 @@ gpu::Buffer texel_buffer(gpu::Device& device, const char* name,
 
 }  // namespace
 
+bool may_need_segments(const scene::Scene& scene, gpu::SegmentSize size) {
+  // Of a triangle no buffer holds more than a record of shading, a light or a node of the tree has.
+  static_assert(sizeof(shared::BvhNode) <= 64 && sizeof(shared::LightRecord) <= 64);
+  const std::uint64_t most = 64 * (scene.triangles.size() + scene.punctual_lights.size());
+  std::uint64_t texels = 0;
+  for (const scene::Texture& texture : scene.textures) texels += texel_bytes(texture);
+  return std::max(most, texels) > size.bytes();
+}
+
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
                            unsigned threads)
-    : constants_(camera_constants(settings)) {
+    : segment_(gpu::segment_size(device, settings.segment_bytes)),
+      constants_(camera_constants(settings)) {
   if (scene.materials.size() > kMaxMaterials) {
     throw Failure(scene.file, "materials",
                   std::to_string(scene.materials.size()) + " materials are more than 65535",
                   "merge materials");
   }
-  const auto start = std::chrono::steady_clock::now();
-  const bvh::Bvh bvh = bvh::build(scene.triangles, threads);
-  bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double start = clock_seconds();
+  bvh::Bvh bvh = bvh::build(scene.triangles, threads);
+  const double built = clock_seconds();
+  bvh_seconds_ = built - start;
 
   const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
   // A hair more than half the diagonal, so that rounding leaves no corner outside.
@@ -125,19 +146,6 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   constants_.light_count = static_cast<std::uint32_t>(lights.records.size());
   constants_.total_power = static_cast<float>(lights.total_power);
 
-  std::vector<shared::TrianglePositions> positions;
-  std::vector<shared::TriangleShading> shading;
-  positions.reserve(bvh.triangle_order.size());
-  shading.reserve(bvh.triangle_order.size());
-  for (const std::uint32_t index : bvh.triangle_order) {
-    const scene::Triangle& triangle = scene.triangles[index];
-    const bool is_opaque =
-        scene.materials[triangle.material].alpha_mode == scene::AlphaMode::opaque;
-    positions.push_back({triangle.corners[0].position,
-                         triangle.material | (is_opaque ? 0u : PPM_HAS_COVERAGE),
-                         triangle.corners[1].position, 0, triangle.corners[2].position, 0});
-    shading.push_back(shading_record(triangle));
-  }
   std::vector<shared::MaterialRecord> materials;
   std::vector<shared::TextureUse> uses;
   for (const scene::Material& material : scene.materials) {
@@ -145,20 +153,55 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
     add_texture_uses(material, materials.back(), uses);
   }
 
-  const TextureRecords textures = make_texture_records(scene);
-
   constants_buffer_ = gpu::make_buffer(device, "scene constants",
                                        std::span<const shared::SceneConstants>(&constants_, 1),
                                        gpu::Usage::uniform);
-  nodes_ = texel_buffer(device, "BVH nodes", bvh.nodes);
-  positions_ = texel_buffer(device, "triangle positions", positions);
-  shading_ = texel_buffer(device, "triangle shading", shading);
   materials_ = texel_buffer(device, "materials", materials);
-  textures_ = texel_buffer(device, "textures", textures.records);
-  texels_ = texel_buffer(device, "texture texels", textures.texels);
   texture_uses_ = texel_buffer(device, "texture uses", uses);
-  details_ = texel_buffer(device, "triangle details", make_details(scene, bvh.triangle_order));
-  lights_ = texel_buffer(device, "lights", lights.records);
+  lights_ = upload_records(device, "lights", lights.records, segment_);
+  nodes_ = upload_records(device, "BVH nodes", bvh.nodes, segment_);
+  bvh.nodes = {};
+  upload_triangles(scene, bvh.triangle_order, device, threads);
+  upload_textures(scene, device);
+  upload_seconds_ = clock_seconds() - built;
+}
+
+void SceneBuffers::upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
+                                    gpu::Device& device, unsigned threads) {
+  positions_ = upload_records<shared::TrianglePositions>(
+      device, "triangle positions", order.size(), threads, segment_,
+      [&](std::size_t slot) { return position_record(scene, scene.triangles[order[slot]]); });
+  shading_ = upload_records<shared::TriangleShading>(
+      device, "triangle shading", order.size(), threads, segment_,
+      [&](std::size_t slot) { return shading_record(scene.triangles[order[slot]]); });
+  details_ = upload_records<shared::TriangleDetail>(
+      device, "triangle details", scene.details.size(), threads, segment_,
+      [&](std::size_t slot) { return detail_record(scene.details[order[slot]]); });
+}
+
+void SceneBuffers::upload_textures(const scene::Scene& scene, gpu::Device& device) {
+  const std::vector<shared::TextureRecord> records = make_texture_records(scene);
+  textures_ = texel_buffer(device, "textures", records);
+  std::uint64_t bytes = 0;
+  for (const scene::Texture& texture : scene.textures) bytes += texel_bytes(texture);
+  texels_ = gpu::SegmentedBuffer(device, "texture texels", bytes, segment_);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::span<const std::byte> data = texel_data(scene.textures[i]);
+    texels_.upload(data.data(), data.size(), std::uint64_t{records[i].first} * sizeof(glm::uvec4));
+  }
+}
+
+void SceneBuffers::add_segments(SceneTraits& traits) const {
+  traits.segment_shift = segment_.shift;
+  const auto add = [&](std::uint32_t binding, const gpu::SegmentedBuffer& buffer) {
+    if (buffer.count() > 1) traits.segments[binding] = buffer.count();
+  };
+  add(PPM_BIND_BVH_NODES, nodes_);
+  add(PPM_BIND_TRIANGLE_POSITIONS, positions_);
+  add(PPM_BIND_TRIANGLE_SHADING, shading_);
+  add(PPM_BIND_TRIANGLE_DETAILS, details_);
+  add(PPM_BIND_TEXTURE_TEXELS, texels_);
+  add(PPM_BIND_LIGHTS, lights_);
 }
 
 void SceneBuffers::bind(gpu::BindingTable& table) const {

@@ -1,14 +1,20 @@
 // A scene on the device: what the kernels' lib/scene.glsl, surface.glsl and lights.glsl read.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "bvh.hpp"
 #include "integrator.hpp"
 #include "kernel.hpp"
+#include "scene_traits.hpp"
 #include "shared/layout.h"
 
 namespace ppm::render {
+
+/// Whether some buffer of the scene may have several segments; where it cannot, kernels can be made
+/// before the buffers are.
+bool may_need_segments(const scene::Scene& scene, gpu::SegmentSize size);
 
 /// Builds the BVH, uploads everything and binds it. Throws Failure when a limit of the device is
 /// passed.
@@ -19,17 +25,26 @@ class SceneBuffers {
 
   void bind(gpu::BindingTable& table) const;
 
+  /// How the buffers are cut, for the kernels that read them.
+  void add_segments(SceneTraits& traits) const;
+
   const shared::SceneConstants& constants() const { return constants_; }
   double total_power() const { return total_power_; }  ///< W * frame.scale^2, mean over channels
   std::uint32_t light_count() const { return constants_.light_count; }
   double bvh_seconds() const { return bvh_seconds_; }
+  double upload_seconds() const { return upload_seconds_; }
 
  private:
+  void upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
+                        gpu::Device& device, unsigned threads);
+  void upload_textures(const scene::Scene& scene, gpu::Device& device);
+
+  gpu::SegmentSize segment_;
   shared::SceneConstants constants_{};
   double total_power_ = 0.0;
-  double bvh_seconds_ = 0.0;
-  gpu::Buffer constants_buffer_, nodes_, positions_, shading_, materials_, textures_, texels_,
-      texture_uses_, details_, lights_;
+  double bvh_seconds_ = 0.0, upload_seconds_ = 0.0;
+  gpu::Buffer constants_buffer_, materials_, textures_, texture_uses_;
+  gpu::SegmentedBuffer nodes_, positions_, shading_, details_, texels_, lights_;
 };
 
 }  // namespace ppm::render

@@ -31,16 +31,16 @@ bool may_disperse(const scene::Material& material) {
 }  // namespace
 
 SceneTraits::Constants SceneTraits::specialisation(Constants own) const {
-  const Constants of_scene = {{PPM_SPEC_ROUGH_GLOSS, rough_gloss},
-                              {PPM_SPEC_TEXTURES, textures},
-                              {PPM_SPEC_DETAILS, details},
-                              {PPM_SPEC_COVERAGE, coverage},
-                              {PPM_SPEC_LAYERS, layers},
-                              {PPM_SPEC_DISPERSION, dispersion},
-                              {PPM_SPEC_MEDIA, media},
-                              {PPM_SPEC_ENVIRONMENT, environment},
-                              {PPM_SPEC_TEXTURED_LIGHTS, textured_lights}};
+  const Constants of_scene = {
+      {PPM_SPEC_SEGMENT_SHIFT, segment_shift}, {PPM_SPEC_ROUGH_GLOSS, rough_gloss},
+      {PPM_SPEC_TEXTURES, textures},           {PPM_SPEC_DETAILS, details},
+      {PPM_SPEC_COVERAGE, coverage},           {PPM_SPEC_LAYERS, layers},
+      {PPM_SPEC_DISPERSION, dispersion},       {PPM_SPEC_MEDIA, media},
+      {PPM_SPEC_ENVIRONMENT, environment},     {PPM_SPEC_TEXTURED_LIGHTS, textured_lights}};
   own.insert(own.end(), of_scene.begin(), of_scene.end());
+  for (const auto& [binding, count] : segments) {
+    own.emplace_back(PPM_SPEC_SEGMENTS + binding, count);
+  }
   return own;
 }
 

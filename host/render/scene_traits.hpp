@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct SceneTraits {
   bool media = true;  ///< an inside
   bool environment = false;
   bool textured_lights = true;  ///< an emission that differs from point to point
+
+  /// How the scene's buffers are cut: their numbers of segments by binding, where there are
+  /// several, and the texels of a segment as a power of two.
+  std::map<std::uint32_t, std::uint32_t> segments{};
+  std::uint32_t segment_shift = 23;
 
   /// The same as constants of the kernels (shaders/lib/scene_kinds.glsl).
   using Constants = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

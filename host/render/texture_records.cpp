@@ -1,7 +1,5 @@
 #include "texture_records.hpp"
 
-#include <cstring>
-
 #include "failure.hpp"
 #include "shared/geometry.h"
 
@@ -10,22 +8,6 @@ namespace {
 
 constexpr std::size_t kRecordBytes = sizeof(glm::uvec4);
 constexpr std::uint64_t kMostRecords = 0xffffffffu;
-
-struct Bytes {
-  const void* data;
-  std::size_t size;
-};
-
-Bytes bytes_of(const scene::Texture& texture) {
-  if (!texture.halves.empty()) {
-    return {texture.halves.data(), texture.halves.size() * sizeof texture.halves[0]};
-  }
-  return {texture.rgba8.data(), texture.rgba8.size() * sizeof texture.rgba8[0]};
-}
-
-std::uint64_t records_of(const scene::Texture& texture) {
-  return (bytes_of(texture).size + kRecordBytes - 1) / kRecordBytes;
-}
 
 std::uint32_t sampling_of(const scene::Texture& texture) {
   return static_cast<std::uint32_t>(texture.wrap_s) |
@@ -44,23 +26,27 @@ std::uint32_t pack_tangent(glm::vec4 tangent) {
 
 }  // namespace
 
-TextureRecords make_texture_records(const scene::Scene& scene) {
-  std::uint64_t total = 0;
-  for (const scene::Texture& texture : scene.textures) total += records_of(texture);
-  if (total > kMostRecords) {
-    throw Failure(scene.file, "textures", "more than 64 GiB in all", "scale textures down");
-  }
-  TextureRecords result;
-  result.texels.reserve(total);
+std::span<const std::byte> texel_data(const scene::Texture& texture) {
+  return texture.halves.empty() ? std::as_bytes(std::span(texture.rgba8))
+                                : std::as_bytes(std::span(texture.halves));
+}
+
+std::uint64_t texel_bytes(const scene::Texture& texture) {
+  return (texel_data(texture).size() + kRecordBytes - 1) / kRecordBytes * kRecordBytes;
+}
+
+std::vector<shared::TextureRecord> make_texture_records(const scene::Scene& scene) {
+  std::vector<shared::TextureRecord> records;
+  std::uint64_t first = 0;
   for (const scene::Texture& texture : scene.textures) {
-    const Bytes bytes = bytes_of(texture);
-    const std::size_t first = result.texels.size();
-    result.records.push_back(
+    records.push_back(
         {texture.width, texture.height, static_cast<std::uint32_t>(first), sampling_of(texture)});
-    result.texels.resize(first + records_of(texture));
-    std::memcpy(result.texels.data() + first, bytes.data, bytes.size);
+    first += texel_bytes(texture) / kRecordBytes;
+    if (first > kMostRecords) {
+      throw Failure(scene.file, "textures", "more than 64 GiB in all", "scale textures down");
+    }
   }
-  return result;
+  return records;
 }
 
 void add_texture_uses(const scene::Material& material, shared::MaterialRecord& record,
@@ -82,23 +68,15 @@ void add_texture_uses(const scene::Material& material, shared::MaterialRecord& r
   }
 }
 
-std::vector<shared::TriangleDetail> make_details(const scene::Scene& scene,
-                                                 std::span<const std::uint32_t> order) {
-  std::vector<shared::TriangleDetail> result;
-  if (scene.details.empty()) return result;
-  result.reserve(order.size());
-  for (const std::uint32_t index : order) {
-    const scene::TriangleDetail& detail = scene.details[index];
-    shared::TriangleDetail record{};
-    record.texcoord0 = detail[0].texcoord1;
-    record.texcoord1 = detail[1].texcoord1;
-    record.texcoord2 = detail[2].texcoord1;
-    record.tangent0 = pack_tangent(detail[0].tangent);
-    record.tangent1 = pack_tangent(detail[1].tangent);
-    record.tangent2 = pack_tangent(detail[2].tangent);
-    result.push_back(record);
-  }
-  return result;
+shared::TriangleDetail detail_record(const scene::TriangleDetail& detail) {
+  shared::TriangleDetail record{};
+  record.texcoord0 = detail[0].texcoord1;
+  record.texcoord1 = detail[1].texcoord1;
+  record.texcoord2 = detail[2].texcoord1;
+  record.tangent0 = pack_tangent(detail[0].tangent);
+  record.tangent1 = pack_tangent(detail[1].tangent);
+  record.tangent2 = pack_tangent(detail[2].tangent);
+  return record;
 }
 
 }  // namespace ppm::render

@@ -22,11 +22,11 @@ float coverage_at(uint triangle, uint material, vec2 barycentric) {
   uint first_use = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material).w;
   uint flags = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 3u).w;
   uvec4 e = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 5u);  // alpha, cutoff, normal scale, uses
-  uvec4 c = PPM_FETCH(triangle_shading, 4u * triangle + 2u);
-  uvec4 d = PPM_FETCH(triangle_shading, 4u * triangle + 3u);
+  uvec4 c = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 2u);
+  uvec4 d = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 3u);
   float alpha = uintBitsToFloat(e.x) * color_at(c, d, weights).a;
   if (kTextures) {
-    uvec4 b = PPM_FETCH(triangle_shading, 4u * triangle + 1u);
+    uvec4 b = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 1u);
     Details details;
     if (kDetails) details = details_at(triangle, weights);
     alpha *= sample_use(first_use, e.w, PPM_USE_BASE_COLOR, texcoords_at(b, c, weights, details)).a;
@@ -48,8 +48,8 @@ vec4 sample_use_at(uint triangle, uint material, vec2 barycentric, uint which) {
   vec3 weights = corner_weights(barycentric);
   uint first_use = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material).w;
   uint use_mask = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 5u).w;
-  uvec4 b = PPM_FETCH(triangle_shading, 4u * triangle + 1u);
-  uvec4 c = PPM_FETCH(triangle_shading, 4u * triangle + 2u);
+  uvec4 b = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 1u);
+  uvec4 c = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 2u);
   Details details;
   if (kDetails) details = details_at(triangle, weights);
   return sample_use(first_use, use_mask, which, texcoords_at(b, c, weights, details));
@@ -57,14 +57,14 @@ vec4 sample_use_at(uint triangle, uint material, vec2 barycentric, uint which) {
 
 // What a triangle light has of its material's emission at a point: its emissive texture, where it is covered.
 vec3 light_texture(uint triangle, vec2 barycentric) {
-  uint material = PPM_FETCH(triangle_shading, 4u * triangle).w;
+  uint material = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle).w;
   float coverage = kCoverage ? coverage_at(triangle, material, barycentric) : 1.0;
   return sample_use_at(triangle, material, barycentric, PPM_USE_EMISSIVE).rgb * coverage;
 }
 
 // The clear coat over a triangle light.
 float light_coat(uint triangle, vec2 barycentric) {
-  uint material = PPM_FETCH(triangle_shading, 4u * triangle).w;
+  uint material = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle).w;
   float coat = fetch_material(material).clearcoat;
   return kTexturedLights ? coat * sample_use_at(triangle, material, barycentric, PPM_USE_CLEARCOAT).r : coat;
 }

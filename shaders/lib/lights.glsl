@@ -6,13 +6,13 @@
 #include "shared/light.h"
 #include "shared/random.h"
 
-PPM_TEXELS(PPM_BIND_LIGHTS, lights);
+PPM_SEGMENTED_TEXELS(PPM_BIND_LIGHTS, lights);
 
 Light fetch_light(uint index) {
-  uvec4 a = PPM_FETCH(lights, PPM_LIGHT_TEXELS * index);
-  uvec4 b = PPM_FETCH(lights, PPM_LIGHT_TEXELS * index + 1u);
-  uvec4 c = PPM_FETCH(lights, PPM_LIGHT_TEXELS * index + 2u);
-  uvec4 d = PPM_FETCH(lights, PPM_LIGHT_TEXELS * index + 3u);
+  uvec4 a = PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * index);
+  uvec4 b = PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * index + 1u);
+  uvec4 c = PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * index + 2u);
+  uvec4 d = PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * index + 3u);
   Light light;
   light.record = LightRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
                              uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.x), uintBitsToFloat(d.y), d.z, d.w);
@@ -34,7 +34,7 @@ Light fetch_light(uint index) {
 // A light in proportion to its power (Vose's alias method): one word chooses the bin, one decides within it.
 uint choose_light(uint bin_word, uint alias_word) {
   uint bin = index_from_word(bin_word, scene.light_count);
-  uvec4 d = PPM_FETCH(lights, PPM_LIGHT_TEXELS * bin + 3u);
+  uvec4 d = PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * bin + 3u);
   return alias_word < d.z ? bin : d.w;
 }
 

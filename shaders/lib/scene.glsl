@@ -6,8 +6,8 @@
 #include "shared/layout.h"
 
 layout(binding = PPM_BIND_SCENE_CONSTANTS, scalar) uniform SceneBlock { SceneConstants scene; };
-PPM_TEXELS(PPM_BIND_BVH_NODES, bvh_nodes);
-PPM_TEXELS(PPM_BIND_TRIANGLE_POSITIONS, triangle_positions);
+PPM_SEGMENTED_TEXELS(PPM_BIND_BVH_NODES, bvh_nodes);
+PPM_SEGMENTED_TEXELS(PPM_BIND_TRIANGLE_POSITIONS, triangle_positions);
 PPM_TEXELS(PPM_BIND_MATERIALS, materials);
 
 struct TriangleCorners {
@@ -16,9 +16,9 @@ struct TriangleCorners {
 };
 
 TriangleCorners fetch_triangle(uint slot) {
-  uvec4 a = PPM_FETCH(triangle_positions, 3u * slot);
-  uvec4 b = PPM_FETCH(triangle_positions, 3u * slot + 1u);
-  uvec4 c = PPM_FETCH(triangle_positions, 3u * slot + 2u);
+  uvec4 a = PPM_FETCH_SEGMENTED(triangle_positions, 3u * slot);
+  uvec4 b = PPM_FETCH_SEGMENTED(triangle_positions, 3u * slot + 1u);
+  uvec4 c = PPM_FETCH_SEGMENTED(triangle_positions, 3u * slot + 2u);
   return TriangleCorners(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), a.w);
 }
 

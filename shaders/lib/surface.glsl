@@ -99,10 +99,10 @@ vec3 mapped_normal(vec3 normal, vec4 tangent, vec3 map, float scale) {
 // `direction` is the way the path travels.
 Surface surface_at(Hit hit, vec3 direction) {
   TriangleCorners corners = fetch_triangle(hit.triangle);
-  uvec4 a = PPM_FETCH(triangle_shading, 4u * hit.triangle);
-  uvec4 b = PPM_FETCH(triangle_shading, 4u * hit.triangle + 1u);
-  uvec4 c = PPM_FETCH(triangle_shading, 4u * hit.triangle + 2u);
-  uvec4 d = PPM_FETCH(triangle_shading, 4u * hit.triangle + 3u);
+  uvec4 a = PPM_FETCH_SEGMENTED(triangle_shading, 4u * hit.triangle);
+  uvec4 b = PPM_FETCH_SEGMENTED(triangle_shading, 4u * hit.triangle + 1u);
+  uvec4 c = PPM_FETCH_SEGMENTED(triangle_shading, 4u * hit.triangle + 2u);
+  uvec4 d = PPM_FETCH_SEGMENTED(triangle_shading, 4u * hit.triangle + 3u);
   vec3 weights = corner_weights(hit.barycentric);
 
   Surface surface;

@@ -7,13 +7,13 @@
 #include "shared/srgb.h"
 
 PPM_TEXELS(PPM_BIND_TEXTURES, textures);
-PPM_TEXELS(PPM_BIND_TEXTURE_TEXELS, texture_texels);
+PPM_SEGMENTED_TEXELS(PPM_BIND_TEXTURE_TEXELS, texture_texels);
 PPM_TEXELS(PPM_BIND_TEXTURE_USES, texture_uses);
 
 // The colour of a texel in linear light. `first` and `sampling` are the texture's.
 vec4 fetch_color(uint first, uint sampling, uint index) {
   bool halves = (sampling & PPM_TEXTURE_HALVES) != 0u;
-  uvec4 quad = PPM_FETCH(texture_texels, first + (index >> (halves ? 1u : 2u)));
+  uvec4 quad = PPM_FETCH_SEGMENTED(texture_texels, first + (index >> (halves ? 1u : 2u)));
   uvec2 pair = (index & (halves ? 1u : 2u)) != 0u ? quad.zw : quad.xy;
   vec4 code = unpackUnorm4x8((index & 1u) != 0u ? pair.y : pair.x);
   vec3 linear = vec3(srgb_to_linear(code.r), srgb_to_linear(code.g), srgb_to_linear(code.b));

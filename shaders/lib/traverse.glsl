@@ -161,10 +161,10 @@ Hit traverse(vec3 origin, vec3 direction, float t_max, uint skip, const bool any
     do {
       if ((ref & PPM_BVH_LEAF) == 0u) {
         uint below = stack[depth - 1u];  // before anything is written, lest a step wait for the stack
-        uvec4 box_x = PPM_FETCH(bvh_nodes, 4u * ref);
-        uvec4 box_y = PPM_FETCH(bvh_nodes, 4u * ref + 1u);
-        uvec4 box_z = PPM_FETCH(bvh_nodes, 4u * ref + 2u);
-        uvec4 children = PPM_FETCH(bvh_nodes, 4u * ref + 3u);
+        uvec4 box_x = PPM_FETCH_SEGMENTED(bvh_nodes, 4u * ref);
+        uvec4 box_y = PPM_FETCH_SEGMENTED(bvh_nodes, 4u * ref + 1u);
+        uvec4 box_z = PPM_FETCH_SEGMENTED(bvh_nodes, 4u * ref + 2u);
+        uvec4 children = PPM_FETCH_SEGMENTED(bvh_nodes, 4u * ref + 3u);
         ivec4 keys = ascending(meet_children(box_x, box_y, box_z, children, ray, hit.t));
         stack[depth] = child_of(children, keys.w);
         depth += keys.w < kMissKey ? 1u : 0u;

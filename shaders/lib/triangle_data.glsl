@@ -7,8 +7,8 @@
 #include "lib/texture.glsl"
 #include "shared/geometry.h"
 
-PPM_TEXELS(PPM_BIND_TRIANGLE_SHADING, triangle_shading);
-PPM_TEXELS(PPM_BIND_TRIANGLE_DETAILS, triangle_details);
+PPM_SEGMENTED_TEXELS(PPM_BIND_TRIANGLE_SHADING, triangle_shading);
+PPM_SEGMENTED_TEXELS(PPM_BIND_TRIANGLE_DETAILS, triangle_details);
 
 // Weights of the three corners; `barycentric` are those of the corners 1 and 2.
 vec3 corner_weights(vec2 barycentric) { return vec3(1.0 - barycentric.x - barycentric.y, barycentric); }
@@ -27,9 +27,9 @@ struct Details {
 };
 
 Details details_at(uint triangle, vec3 weights) {
-  uvec4 a = PPM_FETCH(triangle_details, PPM_DETAIL_TEXELS * triangle);
-  uvec4 b = PPM_FETCH(triangle_details, PPM_DETAIL_TEXELS * triangle + 1u);
-  uint tangent2 = PPM_FETCH(triangle_details, PPM_DETAIL_TEXELS * triangle + 2u).x;
+  uvec4 a = PPM_FETCH_SEGMENTED(triangle_details, PPM_DETAIL_TEXELS * triangle);
+  uvec4 b = PPM_FETCH_SEGMENTED(triangle_details, PPM_DETAIL_TEXELS * triangle + 1u);
+  uint tangent2 = PPM_FETCH_SEGMENTED(triangle_details, PPM_DETAIL_TEXELS * triangle + 2u).x;
   vec2 texcoord1 = uintBitsToFloat(a.xy) * weights.x + uintBitsToFloat(a.zw) * weights.y +
                    uintBitsToFloat(b.xy) * weights.z;
   vec3 tangent = unpack_direction(b.z) * weights.x + unpack_direction(b.w) * weights.y +

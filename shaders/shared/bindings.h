@@ -85,6 +85,12 @@
 #define PPM_SPEC_ALTERNATE_HALVES 101  // bool: see shaders/lib/invocation.glsl
 #define PPM_SPEC_SUBGROUP_SIZE 102     // see shaders/lib/subgroup.glsl
 
+// Buffers that are cut into segments (shaders/lib/texels.glsl): the texels of a segment as a power
+// of two, and the number of segments of the buffer with each number.
+#define PPM_SPEC_SEGMENT_SHIFT 127
+#define PPM_SPEC_SEGMENTS 128  // + binding number
+#define PPM_SEGMENTS 16        // of one buffer at most
+
 // Those that the scene decides (shaders/lib/scene_kinds.glsl).
 #define PPM_SPEC_ROUGH_GLOSS 110      // bool: some material has a rough glossy lobe
 #define PPM_SPEC_TEXTURES 111         // bool: some material has a texture
