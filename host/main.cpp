@@ -9,6 +9,7 @@
 #include "bench_command.hpp"
 #include "devices_command.hpp"
 #include "failure.hpp"
+#include "inspect_command.hpp"
 #include "options.hpp"
 #include "render_command.hpp"
 
@@ -20,6 +21,8 @@ int act(const ppm::cli::Options& options) {
       return ppm::cli::render_command(options.render);
     case ppm::cli::Verb::bench:
       return ppm::cli::bench_command(options.bench);
+    case ppm::cli::Verb::inspect:
+      return ppm::cli::inspect_command(options.inspect);
     case ppm::cli::Verb::devices:
       return ppm::cli::devices_command();
     case ppm::cli::Verb::nothing:

@@ -28,8 +28,11 @@ constexpr int kInterrupted = 130;
 
 std::function<render::Settings(const scene::Scene&, Log&)> settings_from(
     const RenderOptions& render) {
-  return
-      [&render](const scene::Scene& scene, Log& log) { return settings_for(render, scene, log); };
+  return [&render, limits = memory_limits_for(render)](const scene::Scene& scene, Log& log) {
+    const render::Settings settings = settings_for(render, scene, log);
+    check_memory_for(scene, settings, limits, nullptr);
+    return settings;
+  };
 }
 
 bench::Case case_of(const std::string& name, const RenderOptions& render,
@@ -53,9 +56,11 @@ std::vector<bench::Case> cases_for(const std::vector<std::string>& scenes,
     const auto builtin = bench::find_builtin_scenes(scene);
     for (const bench::BuiltinScene& one : builtin) add(case_of(one, render));
     if (builtin.empty()) {
-      add(case_of(scene, render, [scene, load = render.load](Log& log) {
-        return scene::load_gltf(scene, log, load);
-      }));
+      RenderOptions named = render;
+      named.scene = scene;
+      const scene::LoadOptions load = load_options_for(named, memory_limits_for(named));
+      add(case_of(scene, render,
+                  [scene, load](Log& log) { return scene::load_gltf(scene, log, load); }));
     }
   }
   return cases;

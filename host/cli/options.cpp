@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench_options.hpp"
+#include "inspect_options.hpp"
 #include "render_options.hpp"
 
 namespace ppm::cli {
@@ -20,6 +21,7 @@ constexpr const char* kOverview =
     "\n"
     "  ppm-vk render SCENE.glb -o OUT.exr   render a scene\n"
     "  ppm-vk bench [SCENE...]              measure how fast it renders\n"
+    "  ppm-vk inspect SCENE.glb             say what a scene holds and what memory it takes\n"
     "  ppm-vk devices                       list the Vulkan devices and say which can serve\n"
     "  ppm-vk help [VERB]                   this text, or all options of a verb\n"
     "  ppm-vk --version                     the version\n"
@@ -94,12 +96,20 @@ Options parse_bench(const std::vector<std::string>& arguments) {
       [](const CLI::App& app, const Options& options) { check_bench(app, options.bench); });
 }
 
+Options parse_inspect(const std::vector<std::string>& arguments) {
+  return parse_verb(
+      Verb::inspect, "inspect", arguments,
+      [](CLI::App& app, Options& options) { declare_inspect(app, options.inspect); },
+      [](const CLI::App& app, const Options& options) { check_inspect(app, options.inspect); });
+}
+
 Options parse_help(const std::vector<std::string>& arguments) {
   if (arguments.size() > 1)
     return usage_error(arguments[1] + ": one argument too many", "see ppm-vk help");
   if (arguments.empty() || arguments[0] == "help") return printed(kOverview);
   if (arguments[0] == "render") return parse_render({"--help"});
   if (arguments[0] == "bench") return parse_bench({"--help"});
+  if (arguments[0] == "inspect") return parse_inspect({"--help"});
   if (arguments[0] == "devices") return printed(kDevicesHelp);
   return usage_error(arguments[0] + ": no such verb", "see ppm-vk help");
 }
@@ -120,6 +130,7 @@ Options parse(int argc, const char* const* argv) {
   const std::vector<std::string> rest(argv + 2, argv + argc);
   if (verb == "render") return parse_render(rest);
   if (verb == "bench") return parse_bench(rest);
+  if (verb == "inspect") return parse_inspect(rest);
   if (verb == "devices") return parse_devices(rest);
   if (verb == "help" || verb == "--help" || verb == "-h") return parse_help(rest);
   if (verb == "--version") {

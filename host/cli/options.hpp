@@ -14,7 +14,7 @@
 
 namespace ppm::cli {
 
-enum class Verb { render, bench, devices, nothing };
+enum class Verb { render, bench, inspect, devices, nothing };
 
 /// `ppm-vk render ...`, checked for all that can be checked without opening a file.
 struct RenderOptions {
@@ -29,7 +29,8 @@ struct RenderOptions {
   std::optional<double> camera_fov;  ///< full vertical angle, degrees
   double exposure = 0.0;
   std::filesystem::path stats;
-  unsigned threads = 0;  ///< host threads, 0: all
+  unsigned threads = 0;                        ///< host threads, 0: all
+  std::optional<std::uint64_t> memory_budget;  ///< bytes; nothing: what the machine has
   Verbosity verbosity = Verbosity::normal;
   gpu::DeviceOptions device;
   render::Settings settings;  ///< all but width, height, camera
@@ -54,12 +55,19 @@ struct BenchOptions {
   RenderOptions render;  ///< how each scene is rendered; `passes` are those timed a repetition
 };
 
+/// `ppm-vk inspect ...`: `render` says of which rendering the memory is reckoned.
+struct InspectOptions {
+  RenderOptions render;
+  bool json = false;
+};
+
 struct Options {
   Verb verb = Verb::nothing;
   int exit_code =
       0;  ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
   RenderOptions render;
   BenchOptions bench;
+  InspectOptions inspect;
 };
 
 /// Never throws for what a user can type: prints one line and yields Verb::nothing with exit

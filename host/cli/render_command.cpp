@@ -49,7 +49,8 @@ int render_command(const RenderOptions& options) {
   const render::Outputs outputs{options.outputs, options.exposure, options.stats};
   render::check_outputs(outputs);
 
-  const scene::Scene scene = scene::load_gltf(options.scene, log, options.load);
+  const MemoryLimits limits = memory_limits_for(options);
+  scene::Scene scene = scene::load_gltf(options.scene, log, load_options_for(options, limits));
   const double load_seconds = seconds_since(start);
   if (interruption.requested()) {
     log.warn("interrupted while the scene was read; nothing is written");
@@ -62,8 +63,10 @@ int render_command(const RenderOptions& options) {
   gpu::Device device(options.device);
   log.note(fmt::format("device {}: {}, {}", device.description().index, device.description().name,
                        device.description().driver));
+  check_memory_for(scene, settings, limits, &device);
   const std::unique_ptr<render::Integrator> integrator =
       render::make_integrator(settings, scene, device, log, thread_count(options.threads));
+  scene::release_arrays(scene);
 
   render::Circumstances circumstances = circumstances_for(scene, device);
   circumstances.load_seconds = load_seconds;

@@ -1,12 +1,14 @@
 #include "render_options.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "declarer.hpp"
 #include "image.hpp"
+#include "memory_budget.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -146,6 +148,18 @@ void declare_camera(Declarer& declare, RenderOptions& options) {
                [](double value) { return value > 0.0 && value < 180.0; });
 }
 
+void declare_memory(Declarer& declare, RenderOptions& options) {
+  declare.text("--memory-budget", "SIZE",
+               "memory that all together may take, such as 4G; a scene that needs\n"
+               "more is refused (default what the machine has left)",
+               [&](const std::string& value) {
+                 options.memory_budget = parse_size(value);
+                 if (!options.memory_budget) {
+                   throw refusal("--memory-budget", value, "a size such as 4G or 512M");
+                 }
+               });
+}
+
 void declare_machine(Declarer& declare, RenderOptions& options) {
   declare.group("Machine");
   declare.text("--device", "NAME|INDEX",
@@ -157,6 +171,7 @@ void declare_machine(Declarer& declare, RenderOptions& options) {
                fmt::format("milliseconds that no dispatch is meant to exceed (default {})",
                            options.device.dispatch_milliseconds),
                [](double value) { return value > 0.0; });
+  declare_memory(declare, options);
   declare.whole<unsigned>("--threads", options.threads, 0, 4096,
                           "host threads; 0: one for each core (default 0)");
   declare.flag("--quiet", "print nothing but errors",
@@ -172,6 +187,15 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
   declare.whole<std::uint64_t>(
       "--tile-hits", options.settings.tile_hits, 1, kMany,
       fmt::format("hit points a tile holds at most (default {})", options.settings.tile_hits));
+  declare.text("--segment-bytes", "N",
+               "bytes of a segment of the scene's buffers at most (default 134217728)",
+               [&](const std::string& value) {
+                 const auto bytes = parse_number<std::uint64_t>(value);
+                 if (!bytes || *bytes < 1024 || !std::has_single_bit(*bytes)) {
+                   throw refusal("--segment-bytes", value, "a power of two from 1024 on");
+                 }
+                 options.settings.segment_bytes = *bytes;
+               });
   declare.whole<std::uint64_t>("--photon-capacity", options.settings.photon_capacity, 1, kMany,
                                "photons stored at a time at most (default what suits the device)");
   declare.whole<std::uint32_t>(
@@ -203,6 +227,10 @@ void check_shared(const CLI::App& app, const RenderOptions& options) {
   if (app.count("--quiet") > 0 && app.count("--verbose") > 0) {
     throw CLI::ValidationError("--quiet", "excludes --verbose");
   }
+  check_camera(options);
+}
+
+void check_camera(const RenderOptions& options) {
   if (options.camera_up && *options.camera_up == glm::dvec3(0.0)) {
     throw refusal("--camera-up", "0,0,0", "a direction");
   }

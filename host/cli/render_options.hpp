@@ -14,8 +14,11 @@ void check_render(const CLI::App& app, const RenderOptions& options);
 /// are.
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
 void declare_camera(Declarer& declare, RenderOptions& options);
+void declare_memory(Declarer& declare, RenderOptions& options);
 void declare_machine(Declarer& declare, RenderOptions& options);
 void declare_testing(Declarer& declare, RenderOptions& options);
+/// What is wrong with the camera's options together.
+void check_camera(const RenderOptions& options);
 /// Their part of the check, and arguments that nothing takes.
 void check_shared(const CLI::App& app, const RenderOptions& options);
 void check_extras(const CLI::App& app);

@@ -8,6 +8,7 @@
 
 #include "camera_choice.hpp"
 #include "failure.hpp"
+#include "machine_memory.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -35,6 +36,31 @@ render::Settings settings_for(const RenderOptions& options, const scene::Scene& 
       choose_resolution(options, settings.camera, options.settings.width);
   check_radius(settings, scene);
   return settings;
+}
+
+MemoryLimits memory_limits_for(const RenderOptions& options) {
+  return {options.memory_budget, available_memory(), std::nullopt};
+}
+
+scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLimits& limits) {
+  scene::LoadOptions load = options.load;
+  // The camera is not known yet: without --width and --height the usual size is reckoned with.
+  render::Settings settings = options.settings;
+  settings.width = options.width.value_or(settings.width);
+  settings.height = options.height.value_or(settings.height);
+  load.admit = [settings, limits, file = options.scene.string()](const scene::SceneSize& size) {
+    check_memory(file, render::memory_plan(size, settings, render::PassLimits::of_cpu()), limits);
+  };
+  return load;
+}
+
+void check_memory_for(const scene::Scene& scene, const render::Settings& settings,
+                      MemoryLimits limits, const gpu::Device* device) {
+  if (device && !device->shares_host_memory()) limits.device = device->free_bytes();
+  const render::PassLimits passes =
+      device ? render::PassLimits::of(*device) : render::PassLimits::of_cpu();
+  check_memory(scene.file, render::memory_plan(scene::SceneSize::of(scene), settings, passes),
+               limits);
 }
 
 unsigned thread_count(unsigned asked_for) {

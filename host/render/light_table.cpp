@@ -70,7 +70,7 @@ AliasTable make_alias_table(std::span<const double> weights) {
 LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order,
                             glm::vec3 bounding_centre, float bounding_radius) {
   LightTable table;
-  std::vector<double> powers;
+  std::vector<double>& powers = table.powers;
   const auto add = [&](const shared::LightRecord& record, glm::vec3 share = glm::vec3(1.0f)) {
     const glm::dvec3 power = share * shared::light_power(resolve(record, scene, order,
                                                                  bounding_centre, bounding_radius));
@@ -94,10 +94,11 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
   if (powers.empty()) return table;
 
   const double even = kEvenShare * table.total_power / static_cast<double>(powers.size());
-  for (double& power : powers) power = (1.0 - kEvenShare) * power + even;
-  const AliasTable alias = make_alias_table(powers);
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    table.records[i].probability = static_cast<float>(powers[i] / table.total_power);
+  std::vector<double> weights = powers;
+  for (double& weight : weights) weight = (1.0 - kEvenShare) * weight + even;
+  const AliasTable alias = make_alias_table(weights);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    table.records[i].probability = static_cast<float>(weights[i] / table.total_power);
     table.records[i].alias_threshold = alias.threshold[i];
     table.records[i].alias = alias.alias[i];
   }

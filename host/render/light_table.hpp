@@ -12,8 +12,9 @@ namespace ppm::render {
 
 struct LightTable {
   std::vector<shared::LightRecord>
-      records;               ///< with alias bins filled in; empty: no light gives off anything
-  double total_power = 0.0;  ///< sum of all lights' power, mean over channels, W * frame.scale^2
+      records;                 ///< with alias bins filled in; empty: no light gives off anything
+  std::vector<double> powers;  ///< of each record, mean over channels, W * frame.scale^2
+  double total_power = 0.0;    ///< sum of all lights' power, mean over channels, W * frame.scale^2
 };
 
 /// Vose's alias method (1991) over `weights` (all >= 0, their sum > 0): bin i keeps i while a

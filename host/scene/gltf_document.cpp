@@ -172,10 +172,17 @@ Document read_document(const std::filesystem::path& file, Log& log) {
                 ? with_json_chunk(bytes, *found.mended_json)
                 : std::vector<unsigned char>(found.mended_json->begin(), found.mended_json->end());
   }
-  Document document{file.string(), parse(bytes, json.is_binary, file, found), &log, {}, {}, {}, {}};
+  Document document{
+      file.string(), parse(bytes, json.is_binary, file, found), &log, {}, {}, {}, {}, {}, {}};
   refuse_required(document);
   document.extensions = used_extensions(found.extensions, document.model.extensionsRequired);
   warn_of_ignored(document);
+  for (const tinygltf::Buffer& buffer : document.model.buffers) {
+    document.size.file_bytes += buffer.data.size();
+  }
+  for (const tinygltf::Image& image : document.model.images) {
+    document.size.file_bytes += image.image.size();
+  }
   return document;
 }
 

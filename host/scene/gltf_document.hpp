@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 
 #include "extensions.hpp"
 #include "log.hpp"
+#include "scene_size.hpp"
 
 namespace ppm::scene::gltf {
 
@@ -30,6 +32,13 @@ struct Document {
   std::vector<UsedExtension> extensions;              ///< by name
   std::map<int, std::vector<std::uint8_t>> unpacked;  ///< bufferViews that are compressed
   std::set<std::string> sound_sparse;  ///< accessors whose sparse indices were checked
+  SceneSize size;                      ///< as far as it is known
+  std::function<void(const SceneSize&)> admit;
+
+  /// To be called when `size` has grown, before what it counts is allocated.
+  void ask_admission() const {
+    if (admit) admit(size);
+  }
 };
 
 /// Reads a .gltf or .glb file, told by its first bytes, and the files beside or below it that it

@@ -129,6 +129,11 @@ class Decoder {
     }
   }
 
+  std::uint64_t byte_count() const {
+    return static_cast<std::uint64_t>(spec_.width) * static_cast<std::uint64_t>(spec_.height) *
+           (is_of_bytes() ? sizeof(glm::u8vec4) : sizeof(glm::u16vec4));
+  }
+
   Image read(bool srgb) {
     Image image{
         static_cast<std::uint32_t>(spec_.width), static_cast<std::uint32_t>(spec_.height), {}, {}};
@@ -214,6 +219,8 @@ Image decode_image(const Element<tinygltf::Image>& image, bool srgb, std::uint64
   const Silence silence;
   Decoder decoder(image, bytes);
   decoder.check_size(byte_budget);
+  image.document().size.texture_bytes += decoder.byte_count();
+  image.document().ask_admission();
   return decoder.read(srgb);
 }
 

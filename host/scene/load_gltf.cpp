@@ -113,6 +113,8 @@ void bake_triangles(const std::vector<Instance>& instances, std::uint64_t count,
     needs.push_back(needs_of(material));
     baked.with_details = baked.with_details || needs.back().any();
   }
+  root.document().size.details = baked.with_details;
+  root.document().ask_admission();
   baked.triangles.reserve(count);
   if (baked.with_details) baked.details.reserve(count);
   for_each_posed(instances, [&](const PosedPrimitive& posed) {
@@ -161,7 +163,16 @@ void read_materials(const MaterialUses& uses, const Place& root, Scene& scene) {
 }
 
 Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
+  if (options.admit) {
+    SceneSize size;
+    std::error_code unknown;  // what cannot be measured cannot be read either, which is told below
+    const auto bytes = std::filesystem::file_size(file, unknown);
+    if (!unknown) size.file_bytes = bytes;
+    options.admit(size);
+  }
   Document document = read_document(file, log);
+  document.admit = options.admit;
+  document.ask_admission();
   const Place root(document, "");
   check_version(root);
   if (!document.model.animations.empty()) {
@@ -175,10 +186,12 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   Scene scene;
   scene.file = document.file;
   scene.findings.extensions = document.extensions;
-  const std::uint64_t triangle_count = checked_triangle_count(instances, root);
+  scene.findings.file_bytes = document.size.file_bytes;
+  document.size.triangles = checked_triangle_count(instances, root);
+  document.ask_admission();
   scene.frame = frame_of(instances, root);
   read_materials(uses, root, scene);
-  bake_triangles(instances, triangle_count, root, scene, log);
+  bake_triangles(instances, document.size.triangles, root, scene, log);
   measure_bounds(scene);
   settle_alpha_modes(scene);
   for (const Placement& placement : placements) {

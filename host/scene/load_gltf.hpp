@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "log.hpp"
 #include "scene.hpp"
+#include "scene_size.hpp"
 
 namespace ppm::scene {
 
@@ -14,6 +16,9 @@ struct LoadOptions {
   /// Name or index of the scene (`scenes`). Empty: the file's default one, the first if it names
   /// none, all root nodes if it has none.
   std::string scene;
+  /// Asked with all that is known of the scene's size whenever more of it is, before that is
+  /// allocated; throws Failure where it is too much. May be empty.
+  std::function<void(const SceneSize&)> admit{};
 };
 
 /// Reads a scene of the file, as `options` say.

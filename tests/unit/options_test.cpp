@@ -128,6 +128,10 @@ TEST(Options, EveryOptionArrives) {
                                           "--validate",
                                           "--tile-hits",
                                           "100",
+                                          "--segment-bytes",
+                                          "65536",
+                                          "--memory-budget",
+                                          "4G",
                                           "--photon-capacity",
                                           "200",
                                           "--passes-in-flight",
@@ -208,6 +212,8 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("-o", {"o.jpg", "o", "", ".exr", "exr"});
   expect_value_refused("--stats", {"", "s.glb", "o.exr", "./o.exr"});
   expect_value_refused("--tile-hits", {"0", "-1"});
+  expect_value_refused("--segment-bytes", {"0", "512", "5000", "-1", "4k"});
+  expect_value_refused("--memory-budget", {"0", "", "4GB", "-1G", "much"});
   expect_value_refused("--photon-capacity", {"0", "-1"});
   expect_value_refused("--passes-in-flight", {"0", "17", "x"});
 }

@@ -1,0 +1,14 @@
+// The options of `ppm-vk inspect`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "options.hpp"
+
+namespace ppm::cli {
+
+void declare_inspect(CLI::App& app, InspectOptions& options);
+/// What no option can tell alone; throws CLI::ParseError.
+void check_inspect(const CLI::App& app, const InspectOptions& options);
+
+}  // namespace ppm::cli

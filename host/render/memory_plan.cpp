@@ -1,0 +1,128 @@
+#include "memory_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "binary_tree.hpp"
+#include "shared/layout.h"
+
+namespace ppm::render {
+namespace {
+
+constexpr double kHitsAPath = 1.25;
+constexpr double kNodesATriangle = 0.4;
+// Program, libraries, compiled kernels; measured with lavapipe.
+constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
+
+constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::render};
+
+// Records of a hit point that stay, and those that only the tile in hand needs.
+constexpr std::uint64_t kHitBytes = sizeof(shared::HitPoint) + sizeof(glm::vec4) +
+                                    sizeof(shared::GatherSum) + 3 * sizeof(std::uint32_t);
+constexpr std::uint64_t kTileHitBytes =
+    5 * 16 + sizeof(shared::HitKey) + sizeof(std::uint32_t) + 2 * sizeof(shared::EyePath);
+constexpr std::uint64_t kPhotonBytes = 4 * sizeof(glm::uvec4);  // as found and in cell order
+
+std::uint64_t share(double factor, std::uint64_t count) {
+  return static_cast<std::uint64_t>(factor * static_cast<double>(count));
+}
+
+std::uint64_t held(const MemoryPlan& plan, Phase phase,
+                   const std::function<bool(const MemoryPart&)>& counts) {
+  std::uint64_t bytes = 0;
+  for (const MemoryPart& part : plan.parts) {
+    if (part.first <= phase && phase <= part.last && counts(part)) bytes += part.bytes;
+  }
+  return bytes;
+}
+
+std::uint64_t most_held(const MemoryPlan& plan,
+                        const std::function<bool(const MemoryPart&)>& counts) {
+  std::uint64_t most = 0;
+  for (const Phase phase : kPhases) most = std::max(most, held(plan, phase, counts));
+  return most;
+}
+
+bool all(const MemoryPart&) {
+  return true;
+}
+
+/// The largest first; never none, for the program itself is one.
+std::vector<const MemoryPart*> parts_at_peak(const MemoryPlan& plan) {
+  const Phase* const worst =
+      std::ranges::max_element(kPhases, {}, [&](Phase phase) { return held(plan, phase, all); });
+  std::vector<const MemoryPart*> parts;
+  for (const MemoryPart& part : plan.parts) {
+    if (part.first <= *worst && *worst <= part.last && part.bytes > 0) parts.push_back(&part);
+  }
+  std::ranges::sort(parts, std::greater{}, &MemoryPart::bytes);
+  return parts;
+}
+
+}  // namespace
+
+std::uint64_t MemoryPlan::peak() const {
+  return most_held(*this, all);
+}
+std::uint64_t MemoryPlan::host_peak() const {
+  return most_held(*this, [](const MemoryPart& part) { return !part.on_device; });
+}
+std::uint64_t MemoryPlan::device_peak() const {
+  return most_held(*this, [](const MemoryPart& part) { return part.on_device; });
+}
+
+MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
+                       const PassLimits& limits) {
+  const std::uint64_t n = size.triangles, details = size.details ? n : 0;
+  const std::uint64_t nodes = share(kNodesATriangle, n) * sizeof(shared::BvhNode);
+  const std::uint64_t tree = n * (sizeof(bvh::Primitive) + sizeof(bvh::BinaryNode));
+  const std::uint64_t records =
+      n * (sizeof(shared::TrianglePositions) + sizeof(shared::TriangleShading)) +
+      details * sizeof(shared::TriangleDetail) + nodes;
+  const std::uint64_t paths =
+      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
+  const std::uint64_t hits = share(kHitsAPath, paths);
+  const PassCapacities capacities = pass_capacities(settings, limits);
+  const std::uint64_t photons = capacities.photons * kPhotonBytes +
+                                capacities.paths * 2 * sizeof(shared::PhotonPath) +
+                                capacities.grid_entries * 2 * sizeof(std::uint32_t);
+  return {{
+      // A container is held twice while it is taken apart.
+      {"file", 2 * size.file_bytes + size.decoded_bytes, false, Phase::load, Phase::load},
+      {"triangles", n * sizeof(scene::Triangle) + details * sizeof(scene::TriangleDetail), false,
+       Phase::load, Phase::upload},
+      {"textures", size.texture_bytes, false, Phase::load, Phase::upload},
+      {"tree while it is built", tree + nodes, false, Phase::build, Phase::build},
+      {"tree and triangles on the device", records, true, Phase::upload, Phase::render},
+      {"textures on the device", size.texture_bytes, true, Phase::upload, Phase::render},
+      {"hit points", hits * kHitBytes + std::min(hits, settings.tile_hits) * kTileHitBytes, true,
+       Phase::render, Phase::render},
+      {"photons", photons, true, Phase::upload, Phase::render},
+      {"picture", std::uint64_t{settings.width} * settings.height * 2 * 3 * sizeof(float), false,
+       Phase::render, Phase::render},
+      {"program and driver", kProgram, false, Phase::load, Phase::render},
+  }};
+}
+
+const MemoryPart& largest_part(const MemoryPlan& plan) {
+  return *parts_at_peak(plan).front();
+}
+
+std::string describe_peak(const MemoryPlan& plan) {
+  std::string text;
+  for (const MemoryPart* part : parts_at_peak(plan)) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part->name, size_text(part->bytes));
+  }
+  return text;
+}
+
+std::string size_text(std::uint64_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value >= 999.5 * (1u << 20)) return fmt::format("{:.3g} GiB", value / (1u << 30));
+  if (value >= 999.5 * (1u << 10)) return fmt::format("{:.3g} MiB", value / (1u << 20));
+  return fmt::format("{:.3g} KiB", value / (1u << 10));
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,46 @@
+// What a rendering takes, reckoned before any of it is allocated.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "integrator.hpp"
+#include "pass_capacities.hpp"
+#include "scene_size.hpp"
+
+namespace ppm::render {
+
+/// What follows upon what; a part is held from one of these to another.
+enum class Phase { load, build, upload, render };
+
+struct MemoryPart {
+  std::string name;
+  std::uint64_t bytes = 0;
+  bool on_device = false;
+  Phase first = Phase::load, last = Phase::render;
+};
+
+struct MemoryPlan {
+  std::vector<MemoryPart> parts;
+
+  /// The most that is held at a time, on host and device together, or on one of them.
+  std::uint64_t peak() const;
+  std::uint64_t host_peak() const;
+  std::uint64_t device_peak() const;
+};
+
+/// An estimate: counts and sizes of records are exact, what rays will find is not (1.25 hit points
+/// are reckoned with for each eye path, 0.4 nodes for each triangle).
+MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
+                       const PassLimits& limits);
+
+/// Of those that are held at the peak.
+const MemoryPart& largest_part(const MemoryPlan& plan);
+/// "triangles 1.4 GiB, textures 320 MiB": the parts that are held at the peak, the largest first.
+std::string describe_peak(const MemoryPlan& plan);
+/// "1.4 GiB", "320 MiB".
+std::string size_text(std::uint64_t bytes);
+
+}  // namespace ppm::render

@@ -1,0 +1,126 @@
+// What memory a rendering is reckoned to take, what there is, and how it is refused.
+#include "memory_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "failure.hpp"
+#include "machine_memory.hpp"
+#include "temporary_folder.hpp"
+
+namespace ppm::tests {
+namespace {
+
+using cli::MemoryLimits;
+using render::MemoryPlan;
+
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+constexpr std::uint64_t kPlenty = std::numeric_limits<std::uint64_t>::max();
+
+MemoryPlan plan_of(const scene::SceneSize& size, const render::Settings& settings = {}) {
+  return render::memory_plan(size, settings, render::PassLimits::of_cpu());
+}
+
+std::string refusal(const MemoryPlan& plan, const MemoryLimits& limits) {
+  try {
+    cli::check_memory("a.glb", plan, limits);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(MemoryBudget, SizesAreReadInPowersOf1024) {
+  EXPECT_EQ(cli::parse_size("4G"), 4 * kGiB);
+  EXPECT_EQ(cli::parse_size("1.5g"), kGiB + kGiB / 2);
+  EXPECT_EQ(cli::parse_size("512M"), kGiB / 2);
+  EXPECT_EQ(cli::parse_size("64k"), 65536u);
+  EXPECT_EQ(cli::parse_size("2T"), 2048 * kGiB);
+  EXPECT_EQ(cli::parse_size("123456789"), 123456789u);
+  for (const char* text :
+       {"", "G", "0", "-1G", "4GB", "4 G", "nan", "inf", "1e30", "1e400", "0x1G"}) {
+    EXPECT_FALSE(cli::parse_size(text)) << text;
+  }
+}
+
+// By hand: a triangle is stored once on the host, and as 48 + 64 bytes and 0.4 nodes of 64 on the
+// device.
+TEST(MemoryPlan, GrowsWithWhatThereIs) {
+  const MemoryPlan small = plan_of({}), triangles = plan_of({.triangles = 1000000}),
+                   details = plan_of({.triangles = 1000000, .details = true}),
+                   textures = plan_of({.texture_bytes = kGiB});
+  EXPECT_NEAR(static_cast<double>(triangles.device_peak() - small.device_peak()), 137.6e6, 1e3);
+  EXPECT_NEAR(static_cast<double>(details.device_peak() - triangles.device_peak()), 48e6, 1e3);
+  EXPECT_EQ(textures.device_peak() - small.device_peak(), kGiB);
+  EXPECT_EQ(plan_of({.texture_bytes = 2 * kGiB}).host_peak() - textures.host_peak(), kGiB);
+  EXPECT_GE(triangles.host_peak() - small.host_peak(), 1000000 * sizeof(scene::Triangle));
+  for (const MemoryPlan& plan : {small, triangles, details, textures}) {
+    EXPECT_LE(plan.peak(), plan.host_peak() + plan.device_peak());
+    EXPECT_GE(plan.peak(), std::max(plan.host_peak(), plan.device_peak()));
+  }
+}
+
+TEST(MemoryPlan, GrowsWithThePicture) {
+  render::Settings settings;
+  const MemoryPlan usual = plan_of({}, settings);
+  settings.width *= 10;
+  EXPECT_GT(plan_of({}, settings).device_peak(), 9 * (usual.device_peak() - kGiB / 4));
+  settings.width /= 10;
+  settings.photons_per_pass = 1u << 30;
+  // Photons are traced in chunks that the device can hold.
+  EXPECT_LE(plan_of({}, settings).device_peak(), usual.device_peak() + 2 * kGiB);
+}
+
+TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
+  const MemoryPlan triangles = plan_of({.triangles = 50000000});
+  EXPECT_EQ(refusal(triangles, {std::nullopt, kPlenty, std::nullopt}), "");
+  EXPECT_EQ(refusal(triangles, {100 * kGiB, 0, 0}), "");  // who sets a budget knows best
+  const std::string over = refusal(triangles, {4 * kGiB, kPlenty, std::nullopt});
+  EXPECT_TRUE(over.starts_with("a.glb: --memory-budget: a rendering takes ")) << over;
+  EXPECT_TRUE(contains(over, "triangles ")) << over;
+  EXPECT_TRUE(contains(over, "may take 4 GiB")) << over;
+  EXPECT_TRUE(contains(over, "simplify meshes")) << over;
+  const std::string machine = refusal(triangles, {std::nullopt, 2 * kGiB, std::nullopt});
+  EXPECT_TRUE(contains(machine, "the machine has 2 GiB left")) << machine;
+  const std::string device = refusal(triangles, {std::nullopt, kPlenty, kGiB});
+  EXPECT_TRUE(contains(device, "the device has 1 GiB left")) << device;
+
+  const std::string textures = refusal(plan_of({.texture_bytes = 8 * kGiB}), {4 * kGiB, 0, 0});
+  EXPECT_TRUE(contains(textures, "scale textures down")) << textures;
+  render::Settings settings;
+  settings.width = settings.height = 32768;
+  const std::string picture = refusal(plan_of({}, settings), {4 * kGiB, 0, 0});
+  EXPECT_TRUE(contains(picture, "make the picture smaller")) << picture;
+}
+
+// A machine as /proc and /sys show it, and what is left of it.
+TEST(MachineMemory, IsWhatTheSystemOrTheControlGroupHasLeft) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path root = folder / "root";
+  const auto write = [&](const char* file, const std::string& text) {
+    std::filesystem::create_directories((root / file).parent_path());
+    std::ofstream(root / file) << text;
+  };
+  EXPECT_EQ(available_memory(root), kPlenty);
+  write("proc/meminfo", "MemTotal:  8000 kB\nMemFree:  10 kB\nMemAvailable:    4000 kB\n");
+  EXPECT_EQ(available_memory(root), 4000u * 1024);
+  write("sys/fs/cgroup/memory.max", "max\n");
+  write("sys/fs/cgroup/memory.current", "1000000\n");
+  EXPECT_EQ(available_memory(root), 4000u * 1024);
+  write("sys/fs/cgroup/memory.max", "3000000\n");
+  EXPECT_EQ(available_memory(root), 2000000u);
+  write("sys/fs/cgroup/memory.stat", "anon 5\ninactive_file 400000\nactive_file 7\n");
+  EXPECT_EQ(available_memory(root), 2400000u);
+  write("sys/fs/cgroup/memory/memory.limit_in_bytes", "1500000\n");
+  write("sys/fs/cgroup/memory/memory.usage_in_bytes", "1600000\n");
+  EXPECT_EQ(available_memory(root), 0u);
+}
+
+}  // namespace
+}  // namespace ppm::tests
