@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the scenes in Blender, renders them with Cycles and with ppm-vk and compares the two.
 #   run.sh PPM_VK FOLDER [SCENE-VIEW...]       e.g. run.sh build/release/host/ppm-vk /tmp/blender room-wide
-# Pictures of Cycles that lie in FOLDER already are kept. PASSES, SPP: of ppm-vk, by default 256 and 16. PYTHON: one with numpy.
+# Pictures of Cycles that lie in FOLDER already are kept. PASSES, SEEDS: of ppm-vk, by default 64 and "0 1". PYTHON: one with numpy.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 ppm_vk=$1 folder=$2
@@ -22,11 +22,13 @@ for name in "$@"; do
     blender -b --python-exit-code 1 --python "$here/make.py" -- "$scene" "$folder" \
       --samples $samples --views "$view" > "$folder/$name-blender.log"
   fi
-  for seed in 0 1; do
+  for seed in ${SEEDS:-0 1}; do
     "$ppm_vk" render "$folder/$scene.glb" -o "$folder/$name-ppm$seed.exr" --width 160 --height 120 --camera "$camera" \
-      --passes "${PASSES:-256}" --spp "${SPP:-16}" --seed $seed --quiet $more
+      --passes "${PASSES:-64}" --photons 400000 --spp 16 --seed $seed --quiet $more
   done
   echo "== $name"
-  "${PYTHON:-python3}" "$here/compare.py" "$folder/$name-cycles.exr" "$folder/$name-ppm0.exr" --other "$folder/$name-ppm1.exr" \
+  other=$folder/$name-ppm1.exr
+  [ -e "$other" ] || other=$folder/$name-ppm0.exr
+  "${PYTHON:-python3}" "$here/compare.py" "$folder/$name-cycles.exr" "$folder/$name-ppm0.exr" --other "$other" \
     --exposure=$exposure --png "$folder/$name.png"
 done
