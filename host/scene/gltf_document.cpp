@@ -183,6 +183,9 @@ Document read_document(const std::filesystem::path& file, Log& log) {
   for (const tinygltf::Image& image : document.model.images) {
     document.size.file_bytes += image.image.size();
   }
+  if (found.has_animations) {
+    Place(document, "animations").warn("animations", "animations are ignored");
+  }
   return document;
 }
 

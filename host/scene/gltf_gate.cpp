@@ -120,7 +120,6 @@ void check_item_bytes(const json& root, const std::string& file) {
   }
   const std::uint64_t sum =
       bytes("accessors", sizeof(tinygltf::Accessor)) +
-      bytes("animations", sizeof(tinygltf::Animation)) +
       bytes("bufferViews", sizeof(tinygltf::BufferView)) +
       bytes("cameras", sizeof(tinygltf::Camera)) + bytes("images", sizeof(tinygltf::Image)) +
       bytes("materials", sizeof(tinygltf::Material)) + bytes("meshes", sizeof(tinygltf::Mesh)) +
@@ -135,8 +134,9 @@ void check_item_bytes(const json& root, const std::string& file) {
 Survey survey_of(const json& root) {
   Survey result;
   add_extensions(root, result.extensions);
+  result.has_animations = root.contains("animations") && !root["animations"].empty();
   for (const auto& [key, member] : root.items()) {
-    if (member.is_array()) result.lengths[key] = member.size();
+    if (member.is_array() && key != "animations") result.lengths[key] = member.size();
   }
   if (root.contains("extensionsUsed")) {
     for (const json& name : root["extensionsUsed"]) {

@@ -14,6 +14,7 @@ namespace ppm::scene::gltf {
 /// What was found out about a document that passed.
 struct Survey {
   std::map<std::string, std::size_t> lengths;   ///< of the top-level arrays
+  bool has_animations = false;                  ///< of which tinygltf learns nothing
   std::set<std::string> extensions;             ///< that are used anywhere or declared
   std::vector<std::uint64_t> external_lengths;  ///< of the buffers in files beside, in their order
   std::optional<std::string> mended_json;       ///< to be read instead, see gltf_mending.hpp

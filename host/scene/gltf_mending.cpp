@@ -67,8 +67,10 @@ std::optional<std::string> mended(const json& root, bool is_binary) {
       if (has_packed_indices(root, primitive)) primitives.emplace_back(i, j);
     });
   });
-  if (buffers.empty() && skins.empty() && primitives.empty()) return std::nullopt;
+  const bool is_animated = root.contains("animations");
+  if (buffers.empty() && skins.empty() && primitives.empty() && !is_animated) return std::nullopt;
   json copy = root;
+  copy.erase("animations");
   for (const std::size_t i : buffers) {  // one byte, which nobody reads
     copy["buffers"][i]["uri"] = "data:application/octet-stream;base64,AA==";
     copy["buffers"][i]["byteLength"] = 1;

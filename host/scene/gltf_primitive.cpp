@@ -120,9 +120,19 @@ std::vector<Influences> read_influences(const PrimitiveElement& primitive, const
 
 void warn_of_unread(const PrimitiveElement& primitive) {
   const Place attributes = primitive.member("attributes");
-  if (primitive->attributes.contains("COLOR_1")) attributes.warn("COLOR_1", "only COLOR_0 is read");
-  if (primitive->attributes.contains("TEXCOORD_2")) {
-    attributes.warn("TEXCOORD_2", "only TEXCOORD_0 and TEXCOORD_1 are read");
+  for (const auto& [name, unused] : primitive->attributes) {
+    const bool is_read = name == "POSITION" || name == "NORMAL" || name == "TANGENT" ||
+                         name == "TEXCOORD_0" || name == "TEXCOORD_1" || name == "COLOR_0" ||
+                         name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+    if (is_read || name.starts_with('_')) continue;  // those are a program's own
+    if (name.starts_with("COLOR_")) {
+      attributes.warn("COLOR_1", "only COLOR_0 is read");
+    } else if (name.starts_with("TEXCOORD_")) {
+      attributes.warn("TEXCOORD_2", "only TEXCOORD_0 and TEXCOORD_1 are read");
+    } else {
+      attributes.warn("unknown attributes",
+                      printable(name) + " is no attribute of glTF and is ignored");
+    }
   }
 }
 

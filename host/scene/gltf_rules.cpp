@@ -39,7 +39,9 @@ void check_buffers(const json& root, bool is_binary, const std::string& file) {
       throw Failure(file, "buffers", "claim more than 4 GiB", "use a smaller scene");
     }
     sum += bytes;
-    const bool is_fallback = buffers[i].contains("extensions");  // of data that is compressed
+    // Of data that is compressed: it has no bytes of its own.
+    const json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
+    const bool is_fallback = buffers[i].contains(fallback) && buffers[i][fallback] == true;
     if (!buffers[i].contains("uri") && !is_fallback && !(is_binary && i == 0)) {
       throw Failure(file, place_of("buffers", i, ".uri"), "is missing",
                     "name the file with the data; only the first buffer of a .glb lies in it");

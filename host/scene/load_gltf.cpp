@@ -175,9 +175,6 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   document.ask_admission();
   const Place root(document, "");
   check_version(root);
-  if (!document.model.animations.empty()) {
-    root.member("animations").warn("animations", "animations are ignored");
-  }
   const std::vector<Placement> placements = place_nodes(document, options.scene);
   MaterialUses uses;
   Meshes meshes;

@@ -6,11 +6,15 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "mesh_variants.hpp"
+
 namespace ppm::fuzz {
 namespace {
 
 using namespace test;
 using nlohmann::json;
+
+constexpr std::size_t kLargestSeed = 12000;
 
 Bytes text_of(const GltfDocument& document) {
   json whole = document.root;
@@ -232,6 +236,11 @@ GltfDocument compressed() {
   return document;
 }
 
+Bytes content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// A picture of 4 x 4 texels in a file of this kind, which must be one that OpenImageIO writes.
 Bytes picture(const char* extension, OIIO::TypeDesc type) {
   const TemporaryFolder folder;
@@ -243,8 +252,7 @@ Bytes picture(const char* extension, OIIO::TypeDesc type) {
       !output->write_image(OIIO::TypeDesc::FLOAT, texels.data()) || !output->close()) {
     throw std::runtime_error("cannot write " + file + ": " + OIIO::geterror());
   }
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return content(file);
 }
 
 }  // namespace
@@ -271,6 +279,12 @@ std::vector<Seed> seeds() {
         std::pair(".png", OIIO::TypeDesc::UINT16), std::pair(".jpg", OIIO::TypeDesc::UINT8)}) {
     const std::string name = "image" + std::to_string(all.size()) + extension + ".glb";
     all.push_back({name, with_image(picture(extension, type)).glb()});
+  }
+  for (const MeshVariant& variant : mesh_variants()) {
+    const TemporaryFolder folder;
+    const Bytes bytes = content(variant.write(folder, [](GltfDocument&) {}));
+    if (bytes.size() > kLargestSeed) continue;
+    all.push_back({"variant" + std::to_string(all.size()) + ".glb", bytes});
   }
   return all;
 }

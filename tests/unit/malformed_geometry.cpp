@@ -8,6 +8,27 @@ namespace {
 
 constexpr const char* kPosition = "meshes[0].primitives[0].attributes.POSITION";
 
+/// Copies of the mesh by these attributes.
+std::function<void(json&)> copies(json attributes) {
+  return [=](json& root) {
+    root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
+  };
+}
+
+/// A skin on the mesh.
+std::function<void(json&)> skin(json joints, int binds) {
+  return [=](json& root) {
+    const std::size_t zeros = root["accessors"].size();
+    root["accessors"].push_back(
+        {{"bufferView", 0}, {"componentType", 5121}, {"type", "VEC4"}, {"count", 3}});
+    root["skins"] = {{{"joints", joints}, {"inverseBindMatrices", binds}}};
+    root["nodes"][0]["skin"] = 0;
+    json& attributes = root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = zeros;
+    attributes["WEIGHTS_0"] = zeros;
+  };
+}
+
 }  // namespace
 
 std::vector<Malformed> malformed_geometry() {
@@ -207,6 +228,68 @@ std::vector<Malformed> malformed_geometry() {
        "meshes[0].primitives[0].material", "refers to materials[1]"},
       {"negative material", set("/meshes/0/primitives/0/material", -1),
        "meshes[0].primitives[0].material", "is negative"},
+      {"copies by nothing", copies(json::object()),
+       "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes", "is no object"},
+      {"copies by a number", copies(1), "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes",
+       "is no object"},
+      {"copies by what is not there", copies({{"TRANSLATION", 99}}),
+       "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION",
+       "refers to accessors[99]"},
+      {"copies by two coordinates", copies({{"TRANSLATION", 2}}),
+       "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION", "has a type"},
+      {"copies turned by angles", copies({{"ROTATION", 1}}),
+       "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.ROTATION", "has a type"},
+      {"copies in numbers that differ",
+       [](json& root) {
+         root["accessors"].push_back(root["accessors"][1]);
+         root["accessors"].back()["count"] = 2;
+         copies({{"SCALE", 1}, {"TRANSLATION", 5}})(root);
+       },
+       "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION", "2 elements beside 3"},
+      {"copies of zeros",
+       [](json& root) {
+         root["accessors"].push_back(
+             {{"componentType", 5126}, {"type", "VEC3"}, {"count", 2000000000}});
+         copies({{"TRANSLATION", 5}})(root);
+       },
+       "accessors[5]", "without a bufferView"},
+      {"skin out of range", set("/nodes/0/skin", 0), "nodes[0].skin", "refers to skins[0]"},
+      {"joint out of range",
+       [](json& root) {
+         skin({9}, 0)(root);
+         root["skins"][0].erase("inverseBindMatrices");
+       },
+       "skins[0].joints[0]", "refers to nodes[9]"},
+      {"no joints", skin(json::array(), 0), "skins[0].joints", "is empty"},
+      {"binds that are no matrices", skin({0}, 1), "skins[0].inverseBindMatrices",
+       "are not of type MAT4"},
+      {"binds out of range", skin({0}, 77), "skins[0].inverseBindMatrices",
+       "refers to accessors[77]"},
+      {"joints without weights",
+       [](json& root) {
+         skin({0}, 1)(root);
+         root["skins"][0].erase("inverseBindMatrices");
+         root["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
+       },
+       "meshes[0].primitives[0].attributes", "has one of JOINTS_0 and WEIGHTS_0 only"},
+      {"morph target out of range",
+       [](json& root) {
+         root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 99}}};
+       },
+       "meshes[0].primitives[0].targets[0].POSITION", "refers to accessors[99]"},
+      {"morph target of fewer",
+       [](json& root) {
+         root["accessors"].push_back(root["accessors"][1]);
+         root["accessors"].back()["count"] = 2;
+         root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 5}}};
+       },
+       "meshes[0].primitives[0].targets[0].POSITION", "2 elements beside 3"},
+      {"targets a number", set("/meshes/0/primitives/0/targets", 1),
+       "meshes[0].primitives[0].targets", "is not a JSON array"},
+      {"target a list", set("/meshes/0/primitives/0/targets", json::array({json::array()})),
+       "meshes[0].primitives[0].targets[0]", "is not a JSON object"},
+      {"weights of names", set("/meshes/0/weights", {"a"}), "meshes[0].weights[0]",
+       "is not a number"},
       {"more zeros than bytes",
        set("/accessors/1", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 16777215}}),
        "accessors[1]", "without a bufferView"},

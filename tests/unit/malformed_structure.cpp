@@ -87,6 +87,11 @@ std::vector<Malformed> malformed_structure() {
          root["buffers"].push_back({{"byteLength", 4}});
        },
        "buffers[1].uri", "is missing"},
+      {"chunk shared under an extension",
+       [](json& root) {
+         root["buffers"].push_back({{"byteLength", 4}, {"extensions", {{"ACME", json::object()}}}});
+       },
+       "buffers[1].uri", "is missing"},
       {"uri a number", set("/buffers/0/uri", 1), "buffers[0].uri", "is not a string"},
       {"buffers beyond memory",
        [](json& root) {
