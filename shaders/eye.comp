@@ -13,6 +13,7 @@
 
 #include "lib/counters.glsl"
 #include "lib/lights.glsl"
+#include "lib/media.glsl"
 #include "lib/surface.glsl"
 #include "shared/bsdf_record.h"
 #include "shared/camera.h"
@@ -53,6 +54,7 @@ EyePath start(uint group) {
   path.group = group;
   path.direction = camera_direction(scene, film);
   path.state = 0u;
+  path.media = camera_media();
   path.weight = vec3(1.0);
   path.skip = PPM_NO_TRIANGLE;
   path.code = 0u;
@@ -125,10 +127,12 @@ Branch make_branch(vec3 weight, bool exists, float u) {
 struct Scattering {
   Branch reflected, transmitted;
   bool split;
+  bool straight;  // not scattered at all: transmitted as it is
+  MediaInterface sides;
   vec3 transmitted_direction;
 };
 
-Scattering scatter(EyePath path, Surface surface, bool goes_on) {
+Scattering scatter(EyePath path, Surface surface, Crossing crossing, bool goes_on) {
   vec3 wo = to_local(-path.direction, surface.shading_normal);
   SpecularLobes lobes = specular_lobes(surface.bsdf, wo.z);
   // Radiance is divided by the squared ratio of indices where it crosses an interface.
@@ -152,15 +156,22 @@ Scattering scatter(EyePath path, Surface surface, bool goes_on) {
   bool through = dot(result.transmitted_direction, surface.geometric_normal) < 0.0;
   result.transmitted =
       make_branch(path.weight * lobes.transmitted / transmission, goes_on && !only_reflected && through, u.z);
+  result.sides = crossing.sides;
+  result.straight = crossing.straight;
+  if (crossing.straight) {
+    result.transmitted = Branch(path.weight, true);
+    result.transmitted_direction = path.direction;
+    result.split = false;
+  }
   return result;
 }
 
 EyePath take_branch(EyePath path, Surface surface, Scattering scattering, uint triangle, bool transmitted) {
-  uint events = (path.state & 0xffffu) + 1u;
+  path.state += scattering.straight ? 0u : 1u;
   path.origin = offset_origin(surface.position, transmitted ? -surface.geometric_normal : surface.geometric_normal);
   path.direction =
       transmitted ? scattering.transmitted_direction : reflected_direction(surface, path.direction);
-  path.state = transmitted ? transmitted_state(surface, path.state, events) : (path.state & 0xffff0000u) | events;
+  path.media = transmitted ? scattering.sides.after : scattering.sides.before;
   path.weight = transmitted ? scattering.transmitted.weight : scattering.reflected.weight;
   path.skip = triangle;
   path.code |= transmitted && scattering.split ? 0x80000000u >> path.splits : 0u;
@@ -208,6 +219,9 @@ bool advance(inout EyePath path, bool last, inout uint records) {
   if (missed) hit = Hit(0.0, 0u, vec2(0.0));  // any surface
   bool in_depth = !missed && (scene.max_depth == 0u || events < scene.max_depth);
   Surface surface = surface_at(hit, path.direction);
+  Crossing crossing = cross_media(surface, path.media);
+  crossing.straight = crossing.straight && !missed;
+  in_depth = in_depth && !crossing.straight;
   if (kDispersion) {
     if (!missed && disperses(surface) && channel_of(path.weight) == PPM_ALL_CHANNELS &&
         max_component(path.weight) > 0.0) {
@@ -216,14 +230,14 @@ bool advance(inout EyePath path, bool last, inout uint records) {
     }
     show_to_channel(surface, path.weight);
   }
-  path.weight *= medium_transmittance(path.state, hit.t);
+  path.weight *= media_transmittance(path.media, hit.t);
   path.distance += hit.t;
   vec3 radiance = missed ? miss_radiance(path.direction) : surface.emission;
   stage(path, surface, radiance, in_depth && is_non_specular(surface.bsdf), max_component(radiance) > 0.0, records);
   bool cut = in_depth && events >= scene.eye_bounce_cap;
   if (cut) count_event(PPM_COUNTER_PATHS_CUT);
 
-  Scattering scattering = scatter(path, surface, in_depth && !cut);
+  Scattering scattering = scatter(path, surface, crossing, in_depth && !cut);
   bool reflected = scattering.reflected.exists;
   bool transmitted = scattering.transmitted.exists;
   bool follow = !last && (reflected || transmitted);

@@ -11,6 +11,7 @@
 
 #include "lib/counters.glsl"
 #include "lib/lights.glsl"
+#include "lib/media.glsl"
 #include "lib/surface.glsl"
 #include "shared/photon.h"
 
@@ -20,6 +21,8 @@ layout(binding = PPM_BIND_PATHS_IN, scalar) readonly buffer PathsIn { PhotonPath
 layout(binding = PPM_BIND_PATHS_OUT, scalar) writeonly buffer PathsOut { PhotonPath paths_out[]; };
 layout(binding = PPM_BIND_PHOTON_POSITION, scalar) writeonly buffer PhotonPositions { uvec4 photon_position[]; };
 layout(binding = PPM_BIND_PHOTON_FLUX, scalar) writeonly buffer PhotonFluxes { uvec4 photon_flux[]; };
+
+const float kNoRange = 1e30;  // longer than any ray
 
 // Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering, to which a channel may have to be drawn.
 const uint kFirstScatteringBlock = 2u;
@@ -36,12 +39,17 @@ uint pass_of(uint path) {
 
 uint own_pass;  // of the path this invocation follows
 
-PhotonPath emit(uint index, RandomStream random) {
+PhotonPath emit(uint index, RandomStream random, out float range) {
   uvec4 words = random_words(random, 0u);
   vec4 units = random_units(random, 1u);
   uint chosen = choose_light(words.x, words.y);
   Light light = fetch_light(chosen);
   LightEmission emission = light_emit(light, units, unit_from_word(words.z));
+  if (kEnvironment && light.record.kind == PPM_LIGHT_ENVIRONMENT) {
+    vec3 towards_sky;
+    EnvironmentSight sight = sample_environment(words.zw, units.zw, towards_sky);
+    emission = environment_emit(light, towards_sky, sight, units.xy);
+  }
   PhotonPath path;
   bool has_surface = light.record.kind == PPM_LIGHT_TRIANGLE;
   path.origin = has_surface ? offset_origin(emission.position, emission.normal) : emission.position;
@@ -55,6 +63,8 @@ PhotonPath emit(uint index, RandomStream random) {
     float coat = light_coat(path.skip, emission.barycentric);
     path.flux *= clearcoat_transmittance(Clearcoat(coat, 0.0), dot(emission.direction, emission.normal));
   }
+  range = light_range(light.record);
+  path.media = start_media(light, chosen, emission.normal);
   return path;
 }
 
@@ -70,7 +80,7 @@ void store(PhotonPath path, vec3 flux, Surface surface, uint events) {
 }
 
 // Scatters the path at the surface; false: it ends here.
-bool scatter(inout PhotonPath path, Surface surface, uint events, RandomStream random) {
+bool scatter(inout PhotonPath path, Surface surface, MediaInterface sides, uint events, RandomStream random) {
   vec4 u = random_units(random, kFirstScatteringBlock + events);
   if (kDispersion) {
     if (disperses(surface)) path.flux = drawn_channel(path.flux, random_units(random, kFirstChannelBlock + events).x);
@@ -101,26 +111,34 @@ bool scatter(inout PhotonPath path, Surface surface, uint events, RandomStream r
   path.direction = direction;
   path.origin = offset_origin(surface.position,
                               transmitted ? -surface.geometric_normal : surface.geometric_normal);
-  path.state = transmitted ? transmitted_state(surface, path.state, events + 1u)
-                           : (path.state & 0xffff0000u) | (events + 1u);
+  path.state = events + 1u;
+  path.media = transmitted ? sides.after : sides.before;
   return true;
 }
 
 // One segment of a path and what happens at its end; false: the path is over.
-bool advance(inout PhotonPath path, RandomStream random) {
+// `range`: of the light that the segment starts at, in working units.
+bool advance(inout PhotonPath path, RandomStream random, float range) {
   if (kCoverage) {
     coverage_key = random_words(random, kCoverageBlock + (path.state & 0xffffu)).x;
     coverage_shift = 0u;
   }
   Hit hit = closest_hit(path.origin, path.direction, path.skip);
   if (hit.triangle == PPM_NO_TRIANGLE) return false;
-  path.flux *= medium_transmittance(path.state, hit.t);
+  path.flux *= media_transmittance(path.media, hit.t) * range_window(hit.t, range);
   Surface surface = surface_at(hit, path.direction);
+  Crossing crossing = cross_media(surface, path.media);
   if (!is_finite3(path.flux) || !is_finite3(surface.position)) {
     count_event(PPM_COUNTER_NON_FINITE);
     return false;
   }
   if (max_component(path.flux) <= 0.0) return false;
+  if (crossing.straight) {
+    path.origin = offset_origin(surface.position, -surface.geometric_normal);
+    path.skip = hit.triangle;
+    path.media = crossing.sides.after;
+    return true;
+  }
   uint events = path.state & 0xffffu;
   if (is_non_specular(surface.bsdf)) {
     // Eye paths and photons are stopped by the same share of the area: what they meet there is lit by all the light, of
@@ -134,7 +152,7 @@ bool advance(inout PhotonPath path, RandomStream random) {
     return false;
   }
   path.skip = hit.triangle;
-  return scatter(path, surface, events, random);
+  return scatter(path, surface, crossing.sides, events, random);
 }
 
 void main() {
@@ -147,11 +165,13 @@ void main() {
   own_pass = pass_of(path.path);
   uint number = push.emit_first + path.path - own_pass * push.paths;
   RandomStream random = RandomStream(scene.seed, push.stream, push.pass + own_pass, number);
-  if (push.generate != 0u) path = emit(item, random);
+  float range = kNoRange;
+  if (push.generate != 0u) path = emit(item, random, range);
   bool alive;
   uint bounces = paths > PPM_FEW_PATHS ? PPM_BOUNCES_OF_MANY : PPM_BOUNCES_OF_FEW;
   do {  // tested at its end: lavapipe runs a loop's body once more, for nobody, where the test is at its top
-    alive = advance(path, random);
+    alive = advance(path, random, range);
+    range = kNoRange;  // all but the first segment
     --bounces;
   } while (alive && bounces > 0u);
   if (alive) {

@@ -100,6 +100,14 @@ std::string settings_text(const BenchOptions& options) {
   };
   std::string size = "width " + side(render.width, settings.width);
   if (!render.load.scene.empty()) size = "scene " + render.load.scene + ", " + size;
+  if (!render.load.environment.empty()) {
+    size = fmt::format("environment {} x {} at {}, ", render.load.environment.string(),
+                       render.load.environment_strength, render.load.environment_rotation) +
+           size;
+  }
+  if (render.load.luminous_efficacy != 1.0) {
+    size = fmt::format("luminous efficacy {}, ", render.load.luminous_efficacy) + size;
+  }
   if (render.height) size += fmt::format(", height {}", *render.height);
   return fmt::format(
       "{}, {}, {} eye paths a pixel, {} photons a pass, alpha {}, radius {}, seed {}, max depth "

@@ -82,6 +82,7 @@ void declare_bench(CLI::App& app, BenchOptions& options) {
   declare_results(declare, options);
   declare_method(declare, options.render, "photon passes that are timed, a repetition");
   declare_camera(declare, options.render);
+  declare_lights(declare, options.render);
   declare_machine(declare, options.render);
   declare_testing(declare, options.render);
 }

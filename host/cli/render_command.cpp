@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <numbers>
 
 #include "driver.hpp"
 #include "failure.hpp"
@@ -21,13 +22,23 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-render::Circumstances circumstances_for(const scene::Scene& scene, const gpu::Device& device) {
+render::Circumstances circumstances_for(const scene::Scene& scene, const scene::LoadOptions& load,
+                                        const gpu::Device& device) {
   render::Circumstances circumstances;
   circumstances.program = "ppm-vk " PPM_VERSION;
   circumstances.device = device.description().name;
   circumstances.driver = device.description().driver;
   circumstances.scene = scene.file;
   circumstances.frame = scene.frame;
+  circumstances.load_attributes = {{"ppm-vk:luminous_efficacy", load.luminous_efficacy}};
+  if (scene.environment) {
+    const scene::Environment& environment = *scene.environment;
+    circumstances.load_attributes.insert(
+        circumstances.load_attributes.end(),
+        {{"ppm-vk:environment", std::filesystem::path(environment.name).filename().string()},
+         {"ppm-vk:environment_rotation", environment.rotation * 180.0 / std::numbers::pi},
+         {"ppm-vk:environment_strength", static_cast<double>(environment.strength)}});
+  }
   circumstances.device_memory_bytes = [&device] { return device.peak_bytes(); };
   return circumstances;
 }
@@ -68,7 +79,7 @@ int render_command(const RenderOptions& options) {
       render::make_integrator(settings, scene, device, log, thread_count(options.threads));
   scene::release_arrays(scene);
 
-  render::Circumstances circumstances = circumstances_for(scene, device);
+  render::Circumstances circumstances = circumstances_for(scene, options.load, device);
   circumstances.load_seconds = load_seconds;
   circumstances.seconds_before = seconds_since(start);
   const render::Outcome outcome = render::drive(*integrator, settings, {options.passes}, outputs,

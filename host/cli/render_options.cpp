@@ -8,6 +8,7 @@
 
 #include "declarer.hpp"
 #include "image.hpp"
+#include "load_environment.hpp"
 #include "memory_budget.hpp"
 
 namespace ppm::cli {
@@ -148,6 +149,28 @@ void declare_camera(Declarer& declare, RenderOptions& options) {
                [](double value) { return value > 0.0 && value < 180.0; });
 }
 
+void declare_lights(Declarer& declare, RenderOptions& options) {
+  scene::LoadOptions& load = options.load;
+  declare.group("Light");
+  declare.text("--env", "FILE.hdr|.exr", "lat-long map of the light from all around",
+               [&](const std::string& value) {
+                 if (!scene::is_environment_file(value)) {
+                   throw refusal("--env", value, "a file name that ends in .hdr or .exr");
+                 }
+                 load.environment = value;
+               });
+  declare.real("--env-rotation", "DEGREES", load.environment_rotation, "a number from -360 to 360",
+               "turns it about the vertical, counter-clockwise seen from above (default 0)",
+               [](double value) { return std::abs(value) <= 360.0; });
+  declare.real("--env-strength", "S", load.environment_strength, "a number from 0 to 1e12",
+               "multiplies its radiance (default 1)",
+               [](double value) { return value >= 0.0 && value <= 1e12; });
+  declare.real("--luminous-efficacy", "K", load.luminous_efficacy, "a number from 1e-6 to 1e6",
+               "divides the intensity of punctual lights; 683 where the file gives\n"
+               "lumens, as Blender writes them by default (default 1: watts)",
+               [](double value) { return value >= 1e-6 && value <= 1e6; });
+}
+
 void declare_memory(Declarer& declare, RenderOptions& options) {
   declare.text("--memory-budget", "SIZE",
                "memory that all together may take, such as 4G; a scene that needs\n"
@@ -211,6 +234,7 @@ void declare_render(CLI::App& app, RenderOptions& options) {
   declare_files(declare, options, app);
   declare_method(declare, options, "photon passes");
   declare_camera(declare, options);
+  declare_lights(declare, options);
   declare_machine(declare, options);
   declare_testing(declare, options);
 }
@@ -224,6 +248,11 @@ void check_extras(const CLI::App& app) {
 }
 
 void check_shared(const CLI::App& app, const RenderOptions& options) {
+  for (const char* name : {"--env-rotation", "--env-strength"}) {
+    if (app.count(name) > 0 && app.count("--env") == 0) {
+      throw CLI::ValidationError(name, "needs --env");
+    }
+  }
   if (app.count("--quiet") > 0 && app.count("--verbose") > 0) {
     throw CLI::ValidationError("--quiet", "excludes --verbose");
   }

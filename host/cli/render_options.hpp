@@ -14,6 +14,7 @@ void check_render(const CLI::App& app, const RenderOptions& options);
 /// are.
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
 void declare_camera(Declarer& declare, RenderOptions& options);
+void declare_lights(Declarer& declare, RenderOptions& options);
 void declare_memory(Declarer& declare, RenderOptions& options);
 void declare_machine(Declarer& declare, RenderOptions& options);
 void declare_testing(Declarer& declare, RenderOptions& options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "image.hpp"
 #include "integrator.hpp"
 #include "log.hpp"
 
@@ -43,6 +44,7 @@ struct Circumstances {
   std::string device, driver;
   std::filesystem::path scene;
   scene::Frame frame;
+  std::vector<image::Attribute> load_attributes;  ///< how the scene was read
   double load_seconds = 0.0;
   double seconds_before = 0.0;  ///< from the program's start to the call of drive
   std::function<std::uint64_t()> device_memory_bytes;  ///< most that was allocated

@@ -1,7 +1,8 @@
 #include "light_table.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
 
 #include "emission_mean.hpp"
 
@@ -9,6 +10,7 @@ namespace ppm::render {
 namespace {
 
 constexpr double kEvenShare = 0.01;
+constexpr float kUnlimited = 1e30f;  // longer than any ray
 
 shared::Light resolve(const shared::LightRecord& record, const scene::Scene& scene,
                       std::span<const std::uint32_t> order, glm::vec3 centre, float radius) {
@@ -34,6 +36,7 @@ shared::LightRecord punctual_record(const scene::PunctualLight& source) {
                                                            : PPM_LIGHT_DIRECTIONAL;
   record.emission = source.intensity;
   record.direction = source.direction;
+  record.triangle = std::bit_cast<std::uint32_t>(std::min(source.range, kUnlimited));
   record.cos_inner = std::cos(source.inner_cone_angle);
   record.cos_outer = std::cos(source.outer_cone_angle);
   return record;
@@ -41,34 +44,9 @@ shared::LightRecord punctual_record(const scene::PunctualLight& source) {
 
 }  // namespace
 
-AliasTable make_alias_table(std::span<const double> weights) {
-  const std::size_t n = weights.size();
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<double> scaled(n);
-  std::vector<std::uint32_t> small, large;
-  for (std::size_t i = 0; i < n; ++i) {
-    scaled[i] = weights[i] / sum * static_cast<double>(n);
-    (scaled[i] < 1.0 ? small : large).push_back(static_cast<std::uint32_t>(i));
-  }
-  AliasTable table{std::vector<std::uint32_t>(n, 0xffffffffu), std::vector<std::uint32_t>(n)};
-  std::iota(table.alias.begin(), table.alias.end(), 0u);
-  while (!small.empty() && !large.empty()) {
-    const std::uint32_t less = small.back();
-    const std::uint32_t more = large.back();
-    small.pop_back();
-    table.threshold[less] = static_cast<std::uint32_t>(scaled[less] * 4294967295.0);
-    table.alias[less] = more;
-    scaled[more] -= 1.0 - scaled[less];
-    if (scaled[more] < 1.0) {
-      large.pop_back();
-      small.push_back(more);
-    }
-  }
-  return table;  // what is left over is full to rounding, and is its own alias
-}
-
 LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order,
-                            glm::vec3 bounding_centre, float bounding_radius) {
+                            glm::vec3 bounding_centre, float bounding_radius,
+                            const EnvironmentTable& environment) {
   LightTable table;
   std::vector<double>& powers = table.powers;
   const auto add = [&](const shared::LightRecord& record, glm::vec3 share = glm::vec3(1.0f)) {
@@ -91,6 +69,12 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
     add(record, emission_mean.of(order[slot]));
   }
   for (const scene::PunctualLight& source : scene.punctual_lights) add(punctual_record(source));
+  if (!environment.texels.empty()) {
+    shared::LightRecord record{};
+    record.kind = PPM_LIGHT_ENVIRONMENT;
+    record.emission = environment.irradiance;
+    add(record);
+  }
   if (powers.empty()) return table;
 
   const double even = kEvenShare * table.total_power / static_cast<double>(powers.size());

@@ -76,7 +76,8 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
     throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
   }
   if (buffers_.light_count() == 0) {
-    log_.warn(scene.file + ": nothing in the scene gives off light: the picture will be black");
+    throw Failure(scene.file, "", "nothing in the scene gives off light",
+                  "add a light or an emissive material to it, or give --env FILE.hdr");
   }
 }
 

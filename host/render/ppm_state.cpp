@@ -127,6 +127,9 @@ std::uint64_t PpmIntegrator::fingerprint() const {
   for (const scene::Material& material : scene_.materials) add(hash, material);
   for (const scene::Texture& texture : scene_.textures) add(hash, texture);
   for (const scene::PunctualLight& light : scene_.punctual_lights) add(hash, light);
+  if (scene_.environment) {
+    for (const glm::vec3& texel : scene_.environment->texels) hash.add(&texel, sizeof texel);
+  }
   return hash.value();
 }
 

@@ -43,7 +43,7 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
                                                  const Statistics& statistics) {
   const scene::Camera& camera = settings.camera;
   const auto number = [](auto value) { return static_cast<double>(value); };
-  return {
+  std::vector<image::Attribute> attributes = {
       {"ppm-vk:program", circumstances.program},
       {"ppm-vk:device", circumstances.device},
       {"ppm-vk:driver", circumstances.driver},
@@ -65,6 +65,9 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
       camera.ymag ? image::Attribute{"ppm-vk:camera_ymag", *camera.ymag / circumstances.frame.scale}
                   : image::Attribute{"ppm-vk:camera_fov", camera.yfov * 180.0 / std::numbers::pi},
   };
+  attributes.insert(attributes.end(), circumstances.load_attributes.begin(),
+                    circumstances.load_attributes.end());
+  return attributes;
 }
 
 std::string statistics_json(const Settings& settings, const Circumstances& circumstances,

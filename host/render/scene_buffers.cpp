@@ -4,6 +4,9 @@
 
 #include "failure.hpp"
 #include "light_table.hpp"
+#include "media.hpp"
+#include "media_table.hpp"
+#include "ppm_shaders.hpp"
 #include "record_upload.hpp"
 #include "shared/bindings.h"
 #include "shared/geometry.h"
@@ -17,8 +20,6 @@ namespace {
 // path it cuts is counted.
 constexpr std::uint32_t kPhotonBounceCap = 1024;
 constexpr std::uint32_t kEyeBounceCap = 250;  // a hit point keeps its count in 8 bits
-constexpr float kDensest = 1e6f;
-constexpr std::size_t kMaxMaterials = 65535;  // a path keeps its medium in 16 bits
 
 shared::MaterialRecord material_record(const scene::Material& material) {
   shared::MaterialRecord record{};
@@ -27,7 +28,7 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.roughness = material.roughness;
   record.transmission = material.transmission;
   // 0: as if infinitely dense (KHR_materials_ior); the reflectance below is 1 then.
-  record.ior = material.ior == 0.0f ? kDensest : material.ior;
+  record.ior = scene::index_of(material);
   // KHR_materials_specular, section "Implementation".
   const float base = (material.ior - 1.0f) / (material.ior + 1.0f);
   record.specular_f0 = base * base * material.specular_color;
@@ -37,7 +38,8 @@ shared::MaterialRecord material_record(const scene::Material& material) {
                  (material.solid ? PPM_MATERIAL_SOLID : 0u) |
                  (material.alpha_mode == scene::AlphaMode::mask ? PPM_MATERIAL_MASK : 0u) |
                  (material.alpha_mode == scene::AlphaMode::blend ? PPM_MATERIAL_BLEND : 0u) |
-                 (material.unlit ? PPM_MATERIAL_UNLIT : 0u);
+                 (material.unlit ? PPM_MATERIAL_UNLIT : 0u) |
+                 (material.emission != glm::vec3(0.0f) ? PPM_MATERIAL_EMITS : 0u);
   record.alpha = material.alpha;
   record.alpha_cutoff = material.alpha_cutoff;
   record.normal_scale = material.normal_scale;
@@ -45,12 +47,7 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.clearcoat_roughness = material.clearcoat_roughness;
   record.clearcoat_normal_scale = material.clearcoat_normal_scale;
   record.dispersion = material.dispersion;
-  if (material.solid && std::isfinite(material.attenuation_distance)) {
-    // Transmittance attenuation_color after attenuation_distance; a channel of 0 lets next to
-    // nothing through.
-    record.absorption = -glm::log(glm::max(material.attenuation_color, glm::vec3(1e-30f))) /
-                        material.attenuation_distance;
-  }
+  if (material.solid) record.absorption = absorption_of(material);
   return record;
 }
 
@@ -124,11 +121,7 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
                            unsigned threads)
     : segment_(gpu::segment_size(device, settings.segment_bytes)),
       constants_(camera_constants(settings)) {
-  if (scene.materials.size() > kMaxMaterials) {
-    throw Failure(scene.file, "materials",
-                  std::to_string(scene.materials.size()) + " materials are more than 65535",
-                  "merge materials");
-  }
+  const MediaTable media = make_media_table(scene);
   const double start = clock_seconds();
   bvh::Bvh bvh = bvh::build(scene.triangles, threads);
   const double built = clock_seconds();
@@ -137,7 +130,10 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
   // A hair more than half the diagonal, so that rounding leaves no corner outside.
   const float radius = 0.5f * glm::length(scene.bounds_max - scene.bounds_min) * 1.00001f;
-  const LightTable lights = make_light_table(scene, bvh.triangle_order, centre, radius);
+  const EnvironmentTable environment =
+      scene.environment ? make_environment_table(*scene.environment) : EnvironmentTable{};
+  const LightTable lights =
+      make_light_table(scene, bvh.triangle_order, centre, radius, environment);
   total_power_ = lights.total_power;
   constants_.grid_origin = bvh.grid_origin;
   constants_.grid_step = bvh.grid_step;
@@ -145,12 +141,17 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   constants_.bounding_radius = radius;
   constants_.light_count = static_cast<std::uint32_t>(lights.records.size());
   constants_.total_power = static_cast<float>(lights.total_power);
+  constants_.environment_width = environment.shape.width;
+  constants_.environment_height = environment.shape.height;
+  constants_.environment_turn = environment.shape.turn;
+  constants_.environment_pdf_scale = environment.shape.pdf_scale;
 
   std::vector<shared::MaterialRecord> materials;
   std::vector<shared::TextureUse> uses;
   for (const scene::Material& material : scene.materials) {
     materials.push_back(material_record(material));
     add_texture_uses(material, materials.back(), uses);
+    materials.back().medium = media.of_material[materials.size() - 1];
   }
 
   constants_buffer_ = gpu::make_buffer(device, "scene constants",
@@ -163,6 +164,11 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   bvh.nodes = {};
   upload_triangles(scene, bvh.triangle_order, device, threads);
   upload_textures(scene, device);
+  environment_ = texel_buffer(device, "environment", environment.texels);
+  media_ = texel_buffer(device, "media", media.records);
+  light_media_ = gpu::Buffer(device, "media of lights", (lights.records.size() + 1) * 4,
+                             gpu::Usage::storage_and_texels);
+  find_start_media(device, !media.records.empty());
   upload_seconds_ = clock_seconds() - built;
 }
 
@@ -204,6 +210,22 @@ void SceneBuffers::add_segments(SceneTraits& traits) const {
   add(PPM_BIND_LIGHTS, lights_);
 }
 
+void SceneBuffers::find_start_media(gpu::Device& device, bool has_media) {
+  const std::uint64_t starts = std::uint64_t{constants_.light_count} + 1;
+  if (!has_media) {
+    device.run([&](gpu::Recorder& recorder) { recorder.fill(light_media_, 0, starts * 4); });
+    return;
+  }
+  SceneTraits traits;
+  add_segments(traits);
+  const gpu::Kernel kernel(device, shaders::start_media, traits.specialisation());
+  gpu::BindingTable table;
+  bind(table);
+  device.run([&](gpu::Recorder& recorder) {
+    recorder.dispatch(kernel, table, shared::StartMediaPush{}, starts);
+  });
+}
+
 void SceneBuffers::bind(gpu::BindingTable& table) const {
   table.set(PPM_BIND_SCENE_CONSTANTS, constants_buffer_);
   table.set(PPM_BIND_BVH_NODES, nodes_);
@@ -215,6 +237,9 @@ void SceneBuffers::bind(gpu::BindingTable& table) const {
   table.set(PPM_BIND_TEXTURE_USES, texture_uses_);
   table.set(PPM_BIND_TRIANGLE_DETAILS, details_);
   table.set(PPM_BIND_LIGHTS, lights_);
+  table.set(PPM_BIND_ENVIRONMENT, environment_);
+  table.set(PPM_BIND_MEDIA, media_);
+  table.set(PPM_BIND_LIGHT_MEDIA, light_media_);
 }
 
 }  // namespace ppm::render

@@ -38,12 +38,15 @@ class SceneBuffers {
   void upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
                         gpu::Device& device, unsigned threads);
   void upload_textures(const scene::Scene& scene, gpu::Device& device);
+  /// Fills `light_media_`.
+  void find_start_media(gpu::Device& device, bool has_media);
 
   gpu::SegmentSize segment_;
   shared::SceneConstants constants_{};
   double total_power_ = 0.0;
   double bvh_seconds_ = 0.0, upload_seconds_ = 0.0;
-  gpu::Buffer constants_buffer_, materials_, textures_, texture_uses_;
+  gpu::Buffer constants_buffer_, materials_, textures_, texture_uses_, environment_, media_,
+      light_media_;
   gpu::SegmentedBuffer nodes_, positions_, shading_, details_, texels_, lights_;
 };
 

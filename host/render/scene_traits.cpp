@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emission_mean.hpp"
+#include "media.hpp"
 #include "shared/bindings.h"
 #include "shared/bsdf.h"
 
@@ -26,6 +27,12 @@ bool may_have_layers(const scene::Material& material) {
 
 bool may_disperse(const scene::Material& material) {
   return may_have_glass(material) && material.solid && material.dispersion > 0.0f;
+}
+
+bool gives_off_light(const std::optional<scene::Environment>& environment) {
+  return environment && environment->strength > 0.0f &&
+         std::ranges::any_of(environment->texels,
+                             [](const glm::vec3& texel) { return texel != glm::vec3(0.0f); });
 }
 
 }  // namespace
@@ -58,7 +65,8 @@ SceneTraits traits_of(const scene::Scene& scene) {
     return material.alpha_mode != scene::AlphaMode::opaque;
   });
   traits.textured_lights = any(has_textured_emission);
-  traits.media = any([](const scene::Material& material) { return material.solid; });
+  traits.media = any(scene::has_inside);
+  traits.environment = gives_off_light(scene.environment);
   return traits;
 }
 

@@ -10,7 +10,7 @@ using enum Treatment;
 
 // Sorted by name, which the unit tests check.
 constexpr std::array kTable{
-    ExtensionEntry{"EXT_lights_image_based", ignored, "use --env"},
+    ExtensionEntry{"EXT_lights_image_based", implemented, "the first mip of its specularImages"},
     ExtensionEntry{"EXT_mesh_gpu_instancing", implemented, ""},
     ExtensionEntry{"EXT_meshopt_compression", implemented, ""},
     ExtensionEntry{"EXT_texture_avif", ignored, "the texture's own image is read"},

@@ -122,6 +122,11 @@ class Extension : public Place {
                                        const std::string& name);
 
   bool has(const std::string& key) const { return members_->contains(key); }
+  /// The member as it stands there, of any type; null where there is none.
+  const tinygltf::Value* value(const std::string& key) const {
+    const auto found = members_->find(key);
+    return found == members_->end() ? nullptr : &found->second;
+  }
   std::optional<double> number(const std::string& key) const;
   std::optional<std::string> text(const std::string& key) const;
   /// A count, offset or the like; must be there where there is no value `otherwise`.
@@ -138,10 +143,11 @@ class Extension : public Place {
   /// A member that is an object, if it is there.
   std::optional<Extension> object(const std::string& key) const;
 
- private:
+  /// An object within an extension.
   Extension(Place place, const tinygltf::Value::Object& members)
       : Place(std::move(place)), members_(&members) {}
 
+ private:
   const tinygltf::Value::Object* members_;
 };
 

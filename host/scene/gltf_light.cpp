@@ -47,11 +47,22 @@ bool is_finite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Unlike directions, neither range nor intensity changes with the scale of the node.
+void read_range(const Element<tinygltf::Light>& element, const Frame& frame, PunctualLight& light) {
+  if (element->range == 0.0 || light.kind == PunctualKind::directional) return;  // 0: absent
+  const auto range = static_cast<float>(element->range * frame.scale);
+  if (range > 0.0f) {
+    light.range = range;
+  } else {
+    element.member("range").warn("light range", "is not positive and is ignored");
+  }
+}
+
 /// Leaves room for the light's power and for sums over many lights in single precision.
 constexpr double kLargestIntensity = 1e30;
 
 void read_intensity(const Element<tinygltf::Light>& element, const Frame& frame,
-                    PunctualLight& light) {
+                    double luminous_efficacy, PunctualLight& light) {
   glm::vec3 color(1.0f);
   if (!element->color.empty()) {
     element.member("color").clamped(element->color, {glm::value_ptr(color), 3}, 0.0, 1.0);
@@ -59,7 +70,7 @@ void read_intensity(const Element<tinygltf::Light>& element, const Frame& frame,
   const double intensity = element->intensity;
   if (intensity < 0.0) element.warn("light intensity", "a negative intensity is taken as 0");
   const double scale = light.kind == PunctualKind::directional ? 1.0 : frame.scale * frame.scale;
-  const double scaled = std::max(intensity, 0.0) * scale;
+  const double scaled = std::max(intensity, 0.0) / luminous_efficacy * scale;
   if (!(scaled <= kLargestIntensity)) {
     element.fail("its intensity overflows", "use a smaller intensity");
   }
@@ -68,21 +79,20 @@ void read_intensity(const Element<tinygltf::Light>& element, const Frame& frame,
 
 }  // namespace
 
-std::optional<PunctualLight> read_light(const Placement& placement, const Frame& frame) {
+std::optional<PunctualLight> read_light(const Placement& placement, const Frame& frame,
+                                        double luminous_efficacy) {
   const auto element = light_of(placement.node);
   if (!element) return std::nullopt;
   PunctualLight light;
   light.name = placement.node->name.empty() ? element->name() : placement.node.name();
   light.kind = kind_of(*element);
-  read_intensity(*element, frame, light);
-  if ((*element)->range != 0.0) {
-    element->warn("light range", "the range of lights is ignored");
-  }
+  read_intensity(*element, frame, luminous_efficacy, light);
   if (light.intensity == glm::vec3(0.0f)) return std::nullopt;
 
   light.position = glm::vec3(frame.to_working(glm::dvec3(placement.to_world[3])));
   if (!is_finite(light.position))
     placement.node.fail("its light is too far away", "move it closer");
+  read_range(*element, frame, light);
   if (light.kind == PunctualKind::point) return light;
 
   const std::optional<glm::dvec3> direction = unit(-glm::dvec3(placement.to_world[2]));

@@ -6,8 +6,9 @@
 
 namespace ppm::scene::gltf {
 
-/// The light that hangs on a node, if one does and it shines at all. Candela is taken as W/sr, lux
-/// as W/m^2.
-std::optional<PunctualLight> read_light(const Placement& placement, const Frame& frame);
+/// The light that hangs on a node, if one does and it shines at all. Candela and lux are
+/// divided by `luminous_efficacy` (lm/W) to W/sr and W/m^2.
+std::optional<PunctualLight> read_light(const Placement& placement, const Frame& frame,
+                                        double luminous_efficacy);
 
 }  // namespace ppm::scene::gltf

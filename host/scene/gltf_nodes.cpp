@@ -111,20 +111,23 @@ std::size_t chosen_scene(const Place& root, const std::string& wanted) {
 }
 
 Nodes root_nodes(const Place& root, const std::string& wanted) {
-  const tinygltf::Model& model = root.model();
-  if (!wanted.empty()) {
-    const std::size_t position = chosen_scene(root, wanted);
-    const Place scene = root.member("scenes").item(position);
-    return nodes_of(scene.member("nodes"), model.scenes[position].nodes);
-  }
-  const bool names_one = model.defaultScene != -1;
-  if (!names_one && model.scenes.empty()) return parentless_nodes(root);
-  const auto scene =
-      follow(root.member("scene"), names_one ? model.defaultScene : 0, model.scenes, "scenes");
-  return nodes_of(scene.member("nodes"), scene->nodes);
+  const auto scene = find_scene(root.document(), wanted);
+  return scene ? nodes_of(scene->member("nodes"), (*scene)->nodes) : parentless_nodes(root);
 }
 
 }  // namespace
+
+std::optional<Element<tinygltf::Scene>> find_scene(Document& document, const std::string& wanted) {
+  const Place root(document, "");
+  const tinygltf::Model& model = document.model;
+  if (!wanted.empty()) {
+    const std::size_t position = chosen_scene(root, wanted);
+    return Element(root.member("scenes").item(position), model.scenes[position]);
+  }
+  const bool names_one = model.defaultScene != -1;
+  if (!names_one && model.scenes.empty()) return std::nullopt;
+  return follow(root.member("scene"), names_one ? model.defaultScene : 0, model.scenes, "scenes");
+}
 
 std::optional<glm::dvec3> unit(glm::dvec3 v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "gltf_document.hpp"
@@ -21,9 +23,12 @@ std::optional<glm::dvec3> unit(glm::dvec3 v);
 /// finite.
 std::optional<glm::dmat3> rotation(glm::dvec4 q);
 
-/// The nodes of a scene, parents first. `wanted` is its name or index; empty: the default scene
-/// (the first if the file names none, all root nodes if it has none). Throws Failure where there is
-/// no such scene, for cycles, nodes with two parents and transforms that are not finite.
+/// The scene of this name or index; empty: the default scene, the first if the file names none,
+/// nothing if it has none. Throws Failure where there is no such scene.
+std::optional<Element<tinygltf::Scene>> find_scene(Document& document, const std::string& wanted);
+
+/// The nodes of the scene that `wanted` names (see find_scene), parents first; all nodes if there
+/// is none. Throws Failure for cycles, nodes with two parents and transforms that are not finite.
 std::vector<Placement> place_nodes(Document& document, const std::string& wanted);
 
 }  // namespace ppm::scene::gltf

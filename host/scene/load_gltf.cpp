@@ -4,14 +4,18 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <numbers>
 
 #include "alpha.hpp"
 #include "failure.hpp"
 #include "gltf_camera.hpp"
+#include "gltf_environment.hpp"
 #include "gltf_instancing.hpp"
 #include "gltf_light.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
+#include "load_environment.hpp"
+#include "media.hpp"
 
 namespace ppm::scene {
 namespace {
@@ -191,9 +195,14 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   bake_triangles(instances, document.size.triangles, root, scene, log);
   measure_bounds(scene);
   settle_alpha_modes(scene);
+  let_touching_media_overlap(scene);
   for (const Placement& placement : placements) {
-    if (auto light = read_light(placement, scene.frame)) scene.punctual_lights.push_back(*light);
+    if (auto light = read_light(placement, scene.frame, options.luminous_efficacy))
+      scene.punctual_lights.push_back(*light);
     if (auto camera = read_camera(placement, scene.frame)) scene.cameras.push_back(*camera);
+  }
+  if (options.environment.empty()) {
+    scene.environment = read_environment(document, options.scene);
   }
   return scene;
 }
@@ -202,7 +211,13 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
 
 Scene load_gltf(const std::filesystem::path& file, Log& log, const LoadOptions& options) {
   try {
-    return read_scene(file, options, log);
+    Scene scene = read_scene(file, options, log);
+    if (!options.environment.empty()) {
+      scene.environment = load_environment(options.environment, log);
+      scene.environment->rotation = options.environment_rotation * std::numbers::pi / 180.0;
+      scene.environment->strength = static_cast<float>(options.environment_strength);
+    }
+    return scene;
   } catch (const std::bad_alloc&) {
     throw Failure(file.string(), "", "needs more memory than there is", "use a smaller scene");
   }

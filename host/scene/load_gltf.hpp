@@ -15,10 +15,16 @@ namespace ppm::scene {
 struct LoadOptions {
   /// Name or index of the scene (`scenes`). Empty: the file's default one, the first if it names
   /// none, all root nodes if it has none.
-  std::string scene;
+  std::string scene{};
   /// Asked with all that is known of the scene's size whenever more of it is, before that is
   /// allocated; throws Failure where it is too much. May be empty.
   std::function<void(const SceneSize&)> admit{};
+  /// Lumen a watt: what punctual lights' candela and lux are divided by.
+  double luminous_efficacy = 1.0;
+  /// A map that replaces the file's own environment; empty: none.
+  std::filesystem::path environment{};
+  double environment_rotation = 0.0;  ///< about +Y, degrees, counter-clockwise seen from above
+  double environment_strength = 1.0;  ///< multiplies the map
 };
 
 /// Reads a scene of the file, as `options` say.

@@ -132,6 +132,17 @@ struct PunctualLight {
   float range = std::numeric_limits<float>::infinity();
 };
 
+/// Light from infinitely far away, as a map over longitude and latitude: row-major from +Y down to
+/// -Y, the middle of each row towards +X, +Z a quarter of the width to its right. Bilinear between
+/// the texels' centres.
+struct Environment {
+  std::string name;
+  std::uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> texels;  ///< radiance by channel, finite and not negative
+  float strength = 1.0f;          ///< multiplies it; W/(m^2 sr)
+  double rotation = 0.0;          ///< about +Y, radians, counter-clockwise seen from above
+};
+
 /// A camera that looks along `forward`: a pinhole or, with `ymag`, orthographic.
 struct Camera {
   std::string name;
@@ -159,6 +170,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<PunctualLight> punctual_lights;
   std::vector<Camera> cameras;
+  std::optional<Environment> environment;
 
   glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};  ///< of the triangles, working frame
   Findings findings;

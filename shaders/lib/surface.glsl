@@ -17,6 +17,7 @@ struct Surface {
   vec3 shading_normal;
   uint material;       // index
   uint flags;          // of the material
+  uint medium;         // that begins behind the front side, 0 for none
   bool front;          // the path comes from the front side
   vec3 emission;       // radiance given off towards the path
   Bsdf bsdf;
@@ -114,6 +115,7 @@ Surface surface_at(Hit hit, vec3 direction) {
 
   MaterialRecord material = fetch_material(surface.material);
   surface.flags = material.flags;
+  surface.medium = material.medium;
   material.base_color *= color_at(c, d, weights).rgb;
   vec3 map = vec3(0.0, 0.0, 1.0);
   Details details;
@@ -148,11 +150,6 @@ Surface surface_at(Hit hit, vec3 direction) {
     surface.emission *= clearcoat_transmittance(surface.bsdf.coat, -dot(surface.geometric_normal, direction));
   }
   surface.channel_eta = vec3(surface.bsdf.eta);
-  if (kDispersion && (material.flags & PPM_MATERIAL_SOLID) != 0u) {
-    vec3 ior = vec3(dispersed_ior(material.ior, material.dispersion, 0u), material.ior,
-                    dispersed_ior(material.ior, material.dispersion, 2u));
-    surface.channel_eta = surface.front ? ior : 1.0 / ior;
-  }
   return surface;
 }
 
@@ -165,19 +162,6 @@ bool disperses(Surface surface) {
 void show_to_channel(inout Surface surface, vec3 weight) {
   uint channel = channel_of(weight);
   if (kDispersion && channel != PPM_ALL_CHANNELS) surface.bsdf.eta = surface.channel_eta[channel];
-}
-
-// What is left of light after `distance` in the medium of a path's state (bits 16-31: 1 + material, 0 outside).
-vec3 medium_transmittance(uint state, float distance) {
-  uint medium = state >> 16u;
-  if (!kMedia || medium == 0u) return vec3(1.0);
-  return exp(-fetch_material(medium - 1u).absorption * distance);
-}
-
-// The state after a specular transmission through this surface, `events` scattering events being over.
-uint transmitted_state(Surface surface, uint state, uint events) {
-  if ((surface.flags & PPM_MATERIAL_SOLID) == 0u) return (state & 0xffff0000u) | events;
-  return surface.front ? ((surface.material + 1u) << 16u) | events : events;
 }
 
 // A reflected direction must stay on the path's side of the geometric surface. One that does not (a grazing

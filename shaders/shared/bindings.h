@@ -73,9 +73,8 @@
 #define PPM_BIND_TRIANGLE_DETAILS 44  // TriangleDetail, PPM_DETAIL_TEXELS each, leaf order
 #define PPM_BIND_TEXTURE_USES 45      // TextureUse, PPM_TEXTURE_USE_TEXELS each
 #define PPM_BIND_MEDIA 46             // MediumRecord
-#define PPM_BIND_LIGHT_MEDIA 47       // uint: media in which each light starts
-#define PPM_BIND_ENVIRONMENT 48       // radiance of each texel
-#define PPM_BIND_ENVIRONMENT_BINS 49  // alias table over texels
+#define PPM_BIND_LIGHT_MEDIA 47  // uint: media that each light starts in; at the end the camera
+#define PPM_BIND_ENVIRONMENT 48  // uvec4 a texel: radiance, bin of the alias table
 
 #define PPM_BINDING_LIMIT 56
 

@@ -94,6 +94,7 @@ struct TextureUse {
 #define PPM_MATERIAL_MASK 4u          // alphaMode MASK
 #define PPM_MATERIAL_BLEND 8u         // alphaMode BLEND
 #define PPM_MATERIAL_UNLIT 16u
+#define PPM_MATERIAL_EMITS 32u  // from one side at least
 
 #define PPM_MATERIAL_TEXELS 7
 struct MaterialRecord {
@@ -108,13 +109,22 @@ struct MaterialRecord {
   vec3 emission;     // radiance
   uint flags;
   vec3 absorption;  // 1 / working length, of the medium inside when SOLID
-  uint medium;      // 1 + index in MEDIA, 0 where not SOLID
+  uint medium;      // 1 + index in MEDIA, 0 where nothing gets inside
   float alpha, alpha_cutoff;
   float normal_scale;
   uint use_mask;  // PPM_USE_*
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
   float dispersion;
 };  // 112
+
+// What fills a solid. Numbered from 1 by rank (shared/media.h).
+#define PPM_MEDIUM_TEXELS 2
+struct MediumRecord {
+  vec3 absorption;  // 1 / working length
+  float ior;
+  float dispersion;  // 20 / Abbe number, 0 for none
+  uint spare0, spare1, spare2;
+};  // 32
 
 // Bits of TextureRecord::sampling. 0-1: wrap_s, 2-3: wrap_t, as in scene.hpp.
 #define PPM_TEXTURE_NEAREST 16u  // otherwise bilinear
@@ -130,15 +140,17 @@ struct TextureRecord {
 #define PPM_LIGHT_POINT 1u
 #define PPM_LIGHT_SPOT 2u
 #define PPM_LIGHT_DIRECTIONAL 3u
+#define PPM_LIGHT_ENVIRONMENT 4u
 
 #define PPM_LIGHT_TEXELS 4
 struct LightRecord {
   vec3 position;  // point, spot
   uint kind;
-  vec3 emission;      // radiance, intensity or irradiance, working frame
+  vec3 emission;      // radiance, intensity or irradiance, working frame; environment: radiance
+                      // integrated over the sphere
   float probability;  // of being chosen, all lights sum to 1
   vec3 direction;     // spot, directional: the way the light travels
-  uint triangle;      // slot in leaf order
+  uint triangle;      // slot in leaf order; point, spot: the range as bits, working units
   float cos_inner, cos_outer;
   uint alias_threshold;  // of this record's bin: keep it if a 32-bit word is below
   uint alias;            // else take this one
@@ -168,7 +180,10 @@ struct SceneConstants {
                            // counted
   uint eye_bounce_cap;     // idem for eye paths
   uint camera_kind;        // PPM_CAMERA_*
-};                         // 132
+  uint environment_width, environment_height;  // texels; EnvironmentShape in environment.h
+  float environment_turn;
+  float environment_pdf_scale;
+};  // 148
 
 // ---- Counters
 // ---------------------------------------------------------------------------------------------
@@ -220,6 +235,13 @@ struct BatchCheckPush {
   uint rounds;        // that were recorded
 };
 
+// ---- Where paths start
+// -------------------------------------------------------------------------------------
+
+struct StartMediaPush {
+  uint first, count;
+};
+
 // ---- Photon pass
 // ------------------------------------------------------------------------------------------
 
@@ -228,10 +250,11 @@ struct PhotonPath {
   vec3 origin;
   uint path;       // index within the batch: pass of the batch * paths of each + path
   vec3 direction;  // unit, the way it travels
-  uint state;  // bits 0-15: scattering events so far; 16-31: 1 + material of the medium, 0 outside
+  uint state;      // bits 0-15: scattering events so far
   vec3 flux;
-  uint skip;  // triangle slot it starts on, PPM_NO_TRIANGLE for none
-};            // 48
+  uint skip;   // triangle slot it starts on, PPM_NO_TRIANGLE for none
+  uint media;  // that it is in (shared/media.h)
+};             // 52
 
 #define PPM_NO_TRIANGLE 0xffffffffu
 
@@ -290,14 +313,15 @@ struct EyePath {
   vec3 origin;
   uint group;      // pixel of the tile * samples + sample
   vec3 direction;  // unit, the way it travels
-  uint state;      // bits 0-15: scattering events so far; 16-31: medium, as in PhotonPath
+  uint state;      // bits 0-15: scattering events so far
   vec3 weight;     // product of specular factors, times filter weight / samples a pixel
   uint skip;
   uint code;          // which branch was taken at each split, first split in the highest bit
   uint splits;        // bits of code in use
   float distance;     // length of the path so far, working units, from camera_distance on
   float solid_angle;  // of its pixel
-};                    // 64
+  uint media;         // as in PhotonPath
+};                    // 68
 
 struct EyePush {
   uint first, count;
@@ -428,13 +452,14 @@ static_assert(sizeof(TriangleShading) == 64);
 static_assert(sizeof(TriangleDetail) == 16 * PPM_DETAIL_TEXELS);
 static_assert(sizeof(TextureUse) == 16 * PPM_TEXTURE_USE_TEXELS);
 static_assert(sizeof(MaterialRecord) == 16 * PPM_MATERIAL_TEXELS);
+static_assert(sizeof(MediumRecord) == 16 * PPM_MEDIUM_TEXELS);
 static_assert(sizeof(TextureRecord) == 16);
 static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);
-static_assert(sizeof(SceneConstants) == 132);
-static_assert(sizeof(PhotonPath) == 48);
+static_assert(sizeof(SceneConstants) == 148);
+static_assert(sizeof(PhotonPath) == 52);
 static_assert(sizeof(BatchWords) == 4 * (4 + PPM_TRACE_ROUNDS + 1 + 2 * PPM_BATCH_LIMIT));
 static_assert(sizeof(GridConstants) == 36);
-static_assert(sizeof(EyePath) == 64);
+static_assert(sizeof(EyePath) == 68);
 static_assert(sizeof(HitPoint) == 80);
 static_assert(sizeof(GatherSum) == 40);
 }  // namespace ppm::shared

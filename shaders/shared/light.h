@@ -17,6 +17,7 @@ struct Light {
   LightRecord record;
   vec3 corner0, corner1, corner2;  // triangle
   float two_sided;                 // 1 or 0; triangle
+  uint medium;                     // of the solid that the triangle bounds, 0 for none
   vec3 bounding_centre;            // of the scene; directional
   float bounding_radius;
 };
@@ -32,8 +33,22 @@ PPM_FN float spot_falloff(LightRecord record, float cosine) {
   return attenuation * attenuation;
 }
 
+// How far a light reaches, working units: point and spot.
+PPM_FN float light_range(LightRecord record) {
+  return record.kind == PPM_LIGHT_POINT || record.kind == PPM_LIGHT_SPOT
+             ? uintBitsToFloat(record.triangle)
+             : 1e30f;
+}
+
+// KHR_lights_punctual's window, which makes a light end at its range: 1 - (distance / range)^4.
+PPM_FN float range_window(float distance, float range) {
+  float ratio = min(distance / range, 1.0f);
+  return 1.0f - square(square(ratio));
+}
+
 // Power in watts times frame.scale^2, by channel. Triangle: pi A L a side; point: 4 pi I; spot: I
-// integrated over its cone; directional: E times the disc it shines through.
+// integrated over its cone (both without regard to their range); directional and environment: the
+// disc it shines through times E, or times radiance integrated over the sphere.
 PPM_FN vec3 light_power(Light light) {
   LightRecord record = light.record;
   if (record.kind == PPM_LIGHT_TRIANGLE) {
@@ -166,13 +181,16 @@ PPM_FN LightConnection light_connect(Light light, vec3 point, vec2 u) {
     result.radiance = cosine > 0.0f ? record.emission : vec3(0.0f);
   } else if (record.kind == PPM_LIGHT_POINT) {
     result.emit_pdf_direction_solid_angle = sphere_pdf_solid_angle();
-    result.radiance = record.emission / distance2;
+    result.radiance =
+        record.emission * (range_window(result.distance, light_range(record)) / distance2);
   } else {
     float cosine = -dot(result.direction, record.direction);
     bool inside = cosine > record.cos_outer;
     result.emit_pdf_direction_solid_angle = inside ? cone_pdf_solid_angle(record.cos_outer) : 0.0f;
     result.radiance =
-        inside ? record.emission * (spot_falloff(record, cosine) / distance2) : vec3(0.0f);
+        inside ? record.emission * (spot_falloff(record, cosine) *
+                                    range_window(result.distance, light_range(record)) / distance2)
+               : vec3(0.0f);
   }
   return result;
 }

@@ -98,6 +98,11 @@ TEST_F(Cli, WrongUsageIsOneLineAndExitCodeTwo) {
       {{"render", scene(), "-o", picture, "--alpha", "nan"}, "--alpha"},
       {{"render", scene(), "-o", picture, "--integrator", "magic"}, "magic"},
       {{"render", scene(), "-o", picture, "--stats", picture}, "--stats"},
+      {{"render", scene(), "-o", picture, "--env", "sky.png"}, "sky.png"},
+      {{"render", scene(), "-o", picture, "--env-strength", "2"}, "needs --env"},
+      {{"render", scene(), "-o", picture, "--env", "sky.exr", "--env-strength", "-1"},
+       "--env-strength"},
+      {{"render", scene(), "-o", picture, "--luminous-efficacy", "0"}, "--luminous-efficacy"},
   };
   for (const auto& [words, named] : cases) {
     SCOPED_TRACE(testing::PrintToString(words));
@@ -196,6 +201,38 @@ TEST_F(Cli, SceneWithoutTriangles) {
 }
 
 // ---- Where the results go
+
+// What gives off no light is refused with a line that says what would; an environment does.
+TEST_F(Cli, DarkScenesNeedAnEnvironment) {
+  GltfWriter writer;
+  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
+              writer.material(lambert(glm::dvec3(0.5))));
+  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
+  writer.write(scene_.path() / "dark.glb");
+  const std::string dark = (scene_.path() / "dark.glb").string();
+  expect_one_line(run(small({"-o", out("o.exr")}, dark)), 1, "--env");
+  const std::string sky = (scene_.path() / "sky.exr").string();
+  const std::vector<float> texels(3 * 8 * 4, 0.25f);
+  const auto file = OIIO::ImageOutput::create(sky);
+  ASSERT_TRUE(file && file->open(sky, OIIO::ImageSpec(8, 4, 3, OIIO::TypeDesc::FLOAT)));
+  ASSERT_TRUE(file->write_image(OIIO::TypeDesc::FLOAT, texels.data()) && file->close());
+  const Words lit = {"-o", out("o.exr"),     "--env", sky, "--env-strength",
+                     "2",  "--env-rotation", "90"};
+  const Result result = run(small(lit, dark, 16));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const PictureFile picture = read_picture(out("o.exr"));
+  double mean = 0.0;
+  for (const float value : picture.values)
+    mean += value / static_cast<double>(picture.values.size());
+  EXPECT_GT(mean, 0.2);  // half of it is sky, 0.5, the rest the plate, half as bright
+  EXPECT_LT(mean, 0.5);
+  EXPECT_EQ(picture.spec.get_string_attribute("ppm-vk:environment"), "sky.exr");
+  // A map without any light is no help, and one that is missing is named.
+  expect_one_line(run(small({"-o", out("p.exr"), "--env", sky, "--env-strength", "0"}, dark)), 1,
+                  "--env");
+  expect_one_line(run(small({"-o", out("p.exr"), "--env", out("none.hdr")}, dark)), 1, "none.hdr");
+  EXPECT_EQ(folder_.names(), Names{"o.exr"});
+}
 
 TEST_F(Cli, UnwritableOutputsAreRefusedBeforeRendering) {
   write_text(folder_ / "file", "");

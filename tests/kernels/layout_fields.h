@@ -24,6 +24,9 @@
   F2(r.texcoord0) F2(r.texcoord1) F2(r.texcoord2) U1(r.tangent0) U1(r.tangent1) U1(r.tangent2) \
   U1(r.spare0) U1(r.spare1) U1(r.spare2)
 #define PPM_FIELDS_TEXTURE_USE(r) F3(r.row_s) U1(r.texture) F3(r.row_t) U1(r.spare)
+#define PPM_FIELDS_MEDIUM_RECORD(r) \
+  F3(r.absorption) F1(r.ior) F1(r.dispersion) U1(r.spare0) U1(r.spare1) U1(r.spare2)
+#define PPM_FIELDS_START_MEDIA_PUSH(r) U1(r.first) U1(r.count)
 #define PPM_FIELDS_TEXTURE_RECORD(r) U1(r.width) U1(r.height) U1(r.first) U1(r.sampling)
 #define PPM_FIELDS_LIGHT_RECORD(r) \
   F3(r.position) U1(r.kind) F3(r.emission) F1(r.probability) F3(r.direction) U1(r.triangle) \
@@ -32,9 +35,11 @@
   F3(r.grid_origin) U1(r.light_count) F3(r.grid_step) F1(r.total_power) F3(r.bounding_centre) \
   F1(r.bounding_radius) F3(r.camera_position) F1(r.camera_tan_half_y) F3(r.camera_right) \
   F1(r.camera_tan_half_x) F3(r.camera_up) U1(r.width) F3(r.camera_forward) U1(r.height) \
-  U1(r.seed) U1(r.max_depth) U1(r.photon_bounce_cap) U1(r.eye_bounce_cap) U1(r.camera_kind)
+  U1(r.seed) U1(r.max_depth) U1(r.photon_bounce_cap) U1(r.eye_bounce_cap) U1(r.camera_kind) \
+  U1(r.environment_width) U1(r.environment_height) F1(r.environment_turn) \
+  F1(r.environment_pdf_scale)
 #define PPM_FIELDS_PHOTON_PATH(r) \
-  F3(r.origin) U1(r.path) F3(r.direction) U1(r.state) F3(r.flux) U1(r.skip)
+  F3(r.origin) U1(r.path) F3(r.direction) U1(r.state) F3(r.flux) U1(r.skip) U1(r.media)
 #define PPM_FIELDS_PHOTON_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.pass) U1(r.paths) U1(r.passes) U1(r.emit_first) U1(r.generate) \
   U1(r.photon_share) U1(r.path_capacity) U1(r.stream) U1(r.round)
@@ -51,7 +56,7 @@
 #define PPM_FIELDS_SCAN_PUSH(r) U1(r.first) U1(r.count) U1(r.total) U1(r.slice)
 #define PPM_FIELDS_EYE_PATH(r) \
   F3(r.origin) U1(r.group) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) U1(r.code) \
-  U1(r.splits) F1(r.distance) F1(r.solid_angle)
+  U1(r.splits) F1(r.distance) F1(r.solid_angle) U1(r.media)
 #define PPM_FIELDS_EYE_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.pass) U1(r.tile_first) U1(r.samples) U1(r.filter_kind) U1(r.hit_capacity) U1(r.path_capacity) F1(r.split_weight) U1(r.bounces)
 #define PPM_FIELDS_HIT_POINT(r) \
@@ -80,7 +85,9 @@
   RECORD(TriangleDetail, triangle_detail_record, PPM_FIELDS_TRIANGLE_DETAIL) \
   RECORD(TextureUse, texture_use_record, PPM_FIELDS_TEXTURE_USE) \
   RECORD(MaterialRecord, material_record, PPM_FIELDS_MATERIAL_RECORD) \
+  RECORD(MediumRecord, medium_record, PPM_FIELDS_MEDIUM_RECORD) \
   RECORD(TextureRecord, texture_record, PPM_FIELDS_TEXTURE_RECORD) \
+  RECORD(StartMediaPush, start_media_push, PPM_FIELDS_START_MEDIA_PUSH) \
   RECORD(LightRecord, light_record, PPM_FIELDS_LIGHT_RECORD) \
   RECORD(SceneConstants, scene_constants, PPM_FIELDS_SCENE_CONSTANTS) \
   RECORD(PhotonPath, photon_path, PPM_FIELDS_PHOTON_PATH) \

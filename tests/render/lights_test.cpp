@@ -88,6 +88,19 @@ TEST_F(Lights, Point) {
   expect(writer, [&](glm::dvec2 p) { return from_point(position, 3.0 * color, p); });
 }
 
+// Dark from the range on, which one corner of the plate lies beyond.
+TEST_F(Lights, PointOfLimitedRange) {
+  const glm::dvec3 position(-0.1, 0.4, 0.2), color(1.0, 0.6, 0.3);
+  const double range = 0.7;
+  GltfWriter writer = lit_plate();
+  writer.point_light(position, color, 3.0);
+  writer.document()["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = range;
+  expect(writer, [&](glm::dvec2 p) {
+    const double ratio = glm::length(position - on_plate(p)) / range;
+    return std::clamp(1.0 - std::pow(ratio, 4.0), 0.0, 1.0) * from_point(position, 3.0 * color, p);
+  });
+}
+
 struct Cone {
   double inner, outer;
 };

@@ -41,6 +41,7 @@ Light blank(uint kind) {
   light.record.emission = vec3(3.0f, 0.5f, 7.0f);
   light.record.position = vec3(0.2f, -0.3f, 0.4f);
   light.record.direction = normalize(vec3(0.4f, -0.8f, 0.3f));
+  light.record.triangle = floatBitsToUint(1e30f);  // no range
   light.bounding_centre = vec3(0.1f, 0.2f, -0.1f);
   light.bounding_radius = 1.5f;
   return light;
@@ -62,14 +63,21 @@ Light spot(double inner, double outer) {
   return light;
 }
 
+Light within(Light light, float range) {
+  light.record.triangle = floatBitsToUint(range);
+  return light;
+}
+
 // A new kind of light needs its rows here, and its emitted power and irradiance below.
 const std::vector<LightRow>& lights() {
   static const std::vector<LightRow> rows{{"triangle", triangle(false)},
                                           {"triangle_two_sided", triangle(true)},
                                           {"point", blank(PPM_LIGHT_POINT)},
+                                          {"point_range", within(blank(PPM_LIGHT_POINT), 0.87f)},
                                           {"spot_wide", spot(0.2, 1.2)},
                                           {"spot_soft", spot(0.0, 0.5)},
                                           {"spot_hard", spot(0.4999, 0.5)},
+                                          {"spot_range", within(spot(0.2, 1.2), 1.25f)},
                                           {"directional", blank(PPM_LIGHT_DIRECTIONAL)}};
   return rows;
 }
@@ -262,12 +270,16 @@ double irradiance(const Light& light, const Receiver& at) {
   const dvec3 to = dvec3(light.record.position) - point;
   const double distance2 = glm::dot(to, to);
   const dvec3 w = to / std::sqrt(distance2);
-  const double plain = std::max(0.0, glm::dot(w, normal)) / distance2;
+  // KHR_lights_punctual: max(min(1 - (distance / range)^4, 1), 0) / distance^2.
+  const double range = glm::uintBitsToFloat(light.record.triangle);
+  const double window = std::clamp(1.0 - std::pow(distance2 / (range * range), 2.0), 0.0, 1.0);
+  const double plain = window * std::max(0.0, glm::dot(w, normal)) / distance2;
   if (light.record.kind == PPM_LIGHT_POINT) return plain;
   return plain * spot_intensity(light.record, -glm::dot(w, dvec3(light.record.direction)));
 }
 
-// In front of the triangle and behind it, within the spots' cones, on their ramps and outside.
+// In front of the triangle and behind it, within the spots' cones, on their ramps and outside, near
+// their range and beyond.
 std::vector<Receiver> receivers(const Light& light) {
   std::vector<Receiver> result;
   if (light.record.kind == PPM_LIGHT_TRIANGLE) {

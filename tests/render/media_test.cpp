@@ -1,0 +1,433 @@
+// Solids in solids: what eye paths and photons make of media that nest, touch and overlap, against
+// Fresnel's and Beer's laws summed in double precision.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "angles.hpp"
+#include "pane.hpp"
+#include "photon_tracer.hpp"
+#include "render_harness.hpp"
+#include "scene_buffers.hpp"
+#include "shared/photon.h"
+#include "shared/random.h"
+
+namespace ppm::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr unsigned kSeeds = 4;
+constexpr double kSigmas = 9.0;  // of 4 seeds, for some hundred means: Student's t, 3e-3 each
+
+using Media = RenderTest;
+
+nlohmann::json with_priority(nlohmann::json material, int priority) {
+  material["extras"]["priority"] = priority;
+  return material;
+}
+
+// ---- Boxes without refraction
+
+/// A box of index 1: light goes straight on and is only absorbed.
+struct Haze {
+  glm::dvec3 low, high;
+  glm::dvec3 attenuation;  // left after a metre
+  int priority;
+  bool inside_out = false;  // hollow: its front faces its inside
+};
+
+/// Where a line is within a box: distances, the second below the first where it is not.
+glm::dvec2 span_of(const Haze& haze, glm::dvec3 origin, glm::dvec3 direction) {
+  glm::dvec2 span(0.0, 1e9);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (haze.low[axis] - origin[axis]) / direction[axis];
+    const double b = (haze.high[axis] - origin[axis]) / direction[axis];
+    span = {std::max(span.x, std::min(a, b)), std::min(span.y, std::max(a, b))};
+  }
+  return span;
+}
+
+/// Transmittance up to `end`, each stretch attenuated by the box of the highest priority that it
+/// lies in. Hollow boxes take one layer of their material away.
+glm::dvec3 transmittance(const std::vector<Haze>& boxes, glm::dvec3 origin, glm::dvec3 direction,
+                         double end) {
+  std::vector<double> cuts{0.0, end};
+  for (const Haze& haze : boxes) {
+    const glm::dvec2 span = span_of(haze, origin, direction);
+    if (span.x < span.y) {
+      cuts.push_back(std::min(span.x, end));
+      cuts.push_back(std::min(span.y, end));
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  glm::dvec3 left(1.0);
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
+    const Haze* best = nullptr;
+    for (const Haze& haze : boxes) {
+      if (haze.inside_out) continue;
+      int layers = 0;  // of this material
+      for (const Haze& other : boxes) {
+        const glm::dvec2 span = span_of(other, origin, direction);
+        const bool within = span.x < middle && middle < span.y;
+        if (within && other.priority == haze.priority) layers += other.inside_out ? -1 : 1;
+      }
+      if (layers > 0 && (best == nullptr || haze.priority > best->priority)) best = &haze;
+    }
+    if (best != nullptr) left *= glm::pow(best->attenuation, glm::dvec3(cuts[i + 1] - cuts[i]));
+  }
+  return left;
+}
+
+// Overlapping, nested, corner in corner, two of one material, a hollow in a solid; no more than
+// four at any place. Prime-ish numbers keep faces apart.
+const std::vector<Haze> kBoxes{
+    {{-0.91, -0.71, -0.83}, {0.37, 0.41, 0.29}, {0.5, 0.7, 0.9}, 1},
+    {{-0.13, -0.47, -0.31}, {0.89, 0.67, 0.73}, {0.9, 0.4, 0.6}, 2},
+    {{-0.67, -0.53, -0.61}, {-0.19, 0.11, 0.07}, {0.3, 0.8, 0.5}, 3},
+    {{0.23, -0.59, 0.17}, {0.79, -0.03, 0.97}, {0.9, 0.4, 0.6}, 2},
+    {{0.31, 0.05, -0.11}, {0.61, 0.43, 0.37}, {0.9, 0.4, 0.6}, 2, true},
+    {{-0.43, 0.13, -0.37}, {0.17, 0.83, 0.19}, {0.6, 0.6, 0.2}, 0},
+};
+
+struct HazeCamera {
+  const char* name;
+  glm::dvec3 eye;
+};
+void PrintTo(const HazeCamera& camera, std::ostream* stream) {
+  *stream << camera.name;
+}
+class HazeTest : public RenderTest, public ::testing::WithParamInterface<HazeCamera> {};
+
+// Every pixel on its own, one eye path through it: what a path starts from is not known to the
+// test, so that a pixel is compared with the range of what its corners and centre see. Pixels are
+// narrow enough for that range to be a few hundredths wide where a box's edge cuts through, and
+// 1e-3 elsewhere. The floor is the only light.
+TEST_P(HazeTest, AttenuatesByTheBestRankAtEveryPlace) {
+  const glm::dvec3 eye = GetParam().eye;
+  GltfWriter writer;
+  for (const Haze& haze : kBoxes) {
+    Mesh mesh = box(haze.low, haze.high);
+    if (haze.inside_out) mesh = inside_out(mesh);
+    writer.mesh(mesh,
+                writer.material(with_priority(glass(1.0, haze.attenuation, 1.0), haze.priority)));
+  }
+  writer.mesh(quad({-20, -1.5, -20}, {0, 0, 40}, {40, 0, 0}), writer.material(emitter({1, 1, 1})));
+  const double yfov = 1.1;
+  writer.camera("down", eye, {eye.x, eye.y - 1.0, eye.z}, yfov, 1.0, {0.0, 0.0, -1.0});
+  const scene::Scene scene = load(writer);
+  render::Settings settings = small_settings(scene, 48, 48, 1);
+  const render::Picture picture = render_scene(device(), scene, settings, 1).picture;
+  const double half = std::tan(yfov / 2.0);
+  unsigned narrow = 0;
+  for (std::uint32_t y = 0; y < 48; ++y) {
+    for (std::uint32_t x = 0; x < 48; ++x) {
+      glm::dvec3 least(1e9), most(0.0);
+      for (const double dx : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        for (const double dy : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+          const glm::dvec3 to((2.0 * (x + dx) / 48.0 - 1.0) * half, -1.0,
+                              (2.0 * (y + dy) / 48.0 - 1.0) * half);
+          const double length = glm::length(to);
+          const glm::dvec3 sees = transmittance(kBoxes, eye, to / length, (eye.y + 1.5) * length);
+          least = glm::min(least, sees);
+          most = glm::max(most, sees);
+        }
+      }
+      narrow += most.x - least.x < 0.02 ? 1 : 0;
+      // Origins are offset by 2^-20 of the working frame's 32 units at up to 16 surfaces, of
+      // absorption up to 1.6 a metre.
+      const glm::dvec3 slack = 0.25 * (most - least) + 2e-3;
+      for (int channel = 0; channel < 3; ++channel) {
+        ASSERT_GE(pixel(picture, x, y)[channel], least[channel] - slack[channel]) << x << ' ' << y;
+        ASSERT_LE(pixel(picture, x, y)[channel], most[channel] + slack[channel]) << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(narrow, 1500u);
+}
+
+// Outside of all, in one, in the overlap of several, in the hollow.
+INSTANTIATE_TEST_SUITE_P(Cameras, HazeTest,
+                         ::testing::Values(HazeCamera{"outside", {0.0, 2.1, 0.0}},
+                                           HazeCamera{"in_one", {0.7, 0.3, 0.6}},
+                                           HazeCamera{"in_three", {0.05, 0.35, 0.1}},
+                                           HazeCamera{"in_the_hollow", {0.45, 0.2, 0.13}}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// ---- Liquid in a glass
+
+struct Layer {
+  double ior;
+  glm::dvec3 attenuation;  // left after a metre
+  double thickness;
+};
+
+/// Shares of light that a stack of layers in air lets through and throws back, both from above and
+/// from below, all orders of reflection summed. `tint` of each transmission by a layer's index.
+struct StackShares {
+  glm::dvec3 through{1.0}, above{0.0}, below{0.0};
+};
+
+double interface_reflectance_between(double sine, double from, double to) {
+  const double cosine = std::sqrt(1.0 - sine * sine / (from * from));
+  return from < to ? interface_reflectance(cosine, to / from)
+                   : interface_reflectance(std::sqrt(1.0 - sine * sine / (to * to)), from / to);
+}
+
+StackShares stack_shares(const std::vector<Layer>& layers, double cosine, glm::dvec3 tint) {
+  const double sine = std::sqrt(1.0 - cosine * cosine);  // times the index: the same everywhere
+  StackShares all;
+  double index = 1.0;
+  for (std::size_t i = 0; i <= layers.size(); ++i) {
+    const double next = i < layers.size() ? layers[i].ior : 1.0;
+    const glm::dvec3 r(interface_reflectance_between(sine, index, next));
+    const glm::dvec3 t = tint * (1.0 - r);
+    const glm::dvec3 between = 1.0 / (1.0 - all.below * r);
+    StackShares sum;
+    sum.through = all.through * t * between;
+    sum.above = all.above + all.through * all.through * r * between;
+    sum.below = r + t * t * all.below * between;
+    if (i < layers.size()) {
+      const double length = layers[i].thickness / std::sqrt(1.0 - sine * sine / (next * next));
+      const glm::dvec3 a = glm::pow(layers[i].attenuation, glm::dvec3(length));
+      sum.through *= a;
+      sum.below *= a * a;
+    }
+    all = sum;
+    index = next;
+  }
+  return all;
+}
+
+struct Vessel {
+  const char* name;
+  double overlap;  // of liquid and each glass, metres
+  int liquid_priority;
+  double ior = 1.5, liquid_ior = 1.33;
+  glm::dvec3 tint{1.0};
+};
+void PrintTo(const Vessel& vessel, std::ostream* stream) {
+  *stream << vessel.name;
+}
+
+constexpr double kGlass = 0.4, kLiquid = 0.6;  // thickness
+const glm::dvec3 kGlassLeft(0.7, 0.9, 0.8), kLiquidLeft(0.4, 0.6, 0.9);
+
+class VesselTest : public RenderTest, public ::testing::WithParamInterface<Vessel> {
+ protected:
+  // Two plates of glass and what is between them, from y = 0 upwards.
+  static void add_vessel(GltfWriter& writer, double half) {
+    const Vessel& vessel = GetParam();
+    auto pane = glass(vessel.ior, kGlassLeft, 1.0);
+    pane["pbrMetallicRoughness"]["baseColorFactor"] = {vessel.tint.x, vessel.tint.y, vessel.tint.z,
+                                                       1.0};
+    auto liquid = with_priority(glass(vessel.liquid_ior, kLiquidLeft, 1.0), vessel.liquid_priority);
+    liquid["pbrMetallicRoughness"]["baseColorFactor"] =
+        pane["pbrMetallicRoughness"]["baseColorFactor"];
+    const std::size_t glass_index = writer.material(pane);
+    const auto slab = [&](double low, double high, double reach, std::size_t material) {
+      writer.mesh(box(glm::dvec3(-reach, low, -reach), glm::dvec3(reach, high, reach)), material);
+    };
+    slab(0.0, kGlass, half, glass_index);
+    slab(kGlass + kLiquid, 2.0 * kGlass + kLiquid, half, glass_index);
+    slab(kGlass - vessel.overlap, kGlass + kLiquid + vessel.overlap, half - 0.01,
+         writer.material(liquid));
+  }
+
+  static std::vector<Layer> layers() {
+    const Vessel& vessel = GetParam();
+    const bool liquid_first = vessel.liquid_priority > 0 ||
+                              (vessel.liquid_priority == 0 && vessel.liquid_ior > vessel.ior);
+    const double shift = liquid_first ? vessel.overlap : 0.0;
+    return {{vessel.ior, kGlassLeft, kGlass - shift},
+            {vessel.liquid_ior, kLiquidLeft, kLiquid + 2.0 * shift},
+            {vessel.ior, kGlassLeft, kGlass - shift}};
+  }
+};
+
+// As PaneTest.ShowsAPanelBehindIt, whose bias holds for each of three layers; touching surfaces are
+// moved by 2^-18 of the frame's 32 units besides, 1.2e-4 of attenuation 0.9 a metre.
+constexpr double kBias = 1.5e-3;
+
+TEST_P(VesselTest, ShowsAPanelBehindIt) {
+  const glm::dvec3 radiance(2.0, 1.0, 0.5);
+  GltfWriter writer;
+  add_vessel(writer, 30.0);
+  writer.mesh(quad({-30, -1, -30}, {0, 0, 60}, {60, 0, 0}), writer.material(emitter(radiance)));
+  writer.camera("down", {0.0, 2.0, 0.0}, {0.0, 0.0, 0.0}, 2.4, 1.0, {0.0, 0.0, -1.0});
+  const scene::Scene scene = load(writer);
+  const render::Settings settings = small_settings(scene, 48, 48, 1);
+  const auto blocks =
+      replicate(device(), scene, settings, 1, kSeeds,
+                [](const render::Picture& picture) { return block_means(picture, 8); });
+  const auto expected = expected_blocks(settings, 8, [&](double cosine) {
+    return radiance * stack_shares(layers(), cosine, GetParam().tint).through;
+  });
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    EXPECT_TRUE(agrees(blocks[i], expected[i], kSigmas, kBias * expected[i])) << "block " << i;
+}
+
+// Photons on the other side: a dark floor below the vessel, parallel light from above, and a camera
+// between the two. The floor sends back 1/50, of which the vessel reflects less than a third. Light
+// that enters or meets the vessel's sides stays a unit away from where the camera looks.
+TEST_P(VesselTest, LetsPhotonsThrough) {
+  const glm::dvec3 irradiance(3.0, 2.0, 5.0), albedo(0.02);
+  const double tilt = 0.5;
+  GltfWriter writer;
+  add_vessel(writer, 2.0);
+  writer.mesh(quad({-1, -0.6, -1}, {0, 0, 2}, {2, 0, 0}), writer.material(lambert(albedo)));
+  writer.directional_light({std::sin(tilt), -std::cos(tilt), 0.0}, irradiance / 5.0, 5.0);
+  writer.camera("down", {0.0, -0.1, 0.0}, {0.0, -1.0, 0.0}, 1.0, 1.0, {0.0, 0.0, -1.0});
+  const scene::Scene scene = load(writer);
+  render::Settings settings = small_settings(scene, 8, 8, 100000);
+  settings.radius_mode = render::RadiusMode::fixed;
+  settings.radius = 0.4;
+  const Estimate estimate = replicate(device(), scene, settings, 1, kSeeds, whole(settings));
+  const glm::dvec3 expected = albedo / kPi * irradiance * std::cos(tilt) *
+                              stack_shares(layers(), std::cos(tilt), GetParam().tint).through;
+  EXPECT_TRUE(agrees(estimate, expected, kSigmas, (kBias + 0.02 / 3.0) * expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vessels, VesselTest,
+                         ::testing::Values(Vessel{"overlapping", 0.02, 0},
+                                           Vessel{"touching", 0.0, 0},
+                                           Vessel{"liquid_first", 0.05, 1},
+                                           Vessel{"touching_liquid_first", 0.0, 7},
+                                           Vessel{"dense_liquid", 0.02, -1, 1.3, 1.7},
+                                           Vessel{"tinted", 0.02, 0, 1.6, 1.4, {0.9, 0.7, 0.8}}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// ---- Cameras and lamps in media
+
+// Down through the lower face of a slab that the camera stands in: radiance in a medium is n^2
+// times that in air, and what the lower face reflects comes back from the upper one.
+TEST_F(Media, CameraInGlassSeesNSquaredOfTheAir) {
+  const double ior = 1.4, height = 0.5, thickness = 1.2;
+  const glm::dvec3 left(0.8, 0.6, 0.9), radiance(1.0, 2.0, 3.0);
+  GltfWriter writer;
+  writer.mesh(box({-30, -0.5, -30}, {30, 0.7, 30}), writer.material(glass(ior, left, 1.0)));
+  writer.mesh(quad({-30, -2, -30}, {0, 0, 60}, {60, 0, 0}), writer.material(emitter(radiance)));
+  writer.camera("in", {0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, 0.8, 1.0, {0.0, 0.0, -1.0});
+  const scene::Scene scene = load(writer);
+  const render::Settings settings = small_settings(scene, 32, 32, 1);
+  const auto blocks =
+      replicate(device(), scene, settings, 1, kSeeds,
+                [](const render::Picture& picture) { return block_means(picture, 8); });
+  const auto expected = expected_blocks(settings, 8, [&](double cosine) {
+    const double outside = std::sqrt(1.0 - ior * ior * (1.0 - cosine * cosine));
+    const double r = interface_reflectance(outside, ior);
+    const glm::dvec3 once = glm::pow(left, glm::dvec3(thickness / cosine));
+    return ior * ior * radiance * (1.0 - r) * glm::pow(left, glm::dvec3(height / cosine)) /
+           (1.0 - r * r * once * once);
+  });
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    EXPECT_TRUE(agrees(blocks[i], expected[i], kSigmas, kBias * expected[i])) << "block " << i;
+}
+
+enum class LampKind { point, spot, triangles };
+class LampTest : public RenderTest, public ::testing::WithParamInterface<LampKind> {};
+
+// A lamp in the middle of a ball of glass within a larger one of liquid: whatever it sends out
+// meets both surfaces at a right angle, and what they reflect comes back through the middle. With r
+// and a = 1 - r of the inner surface, R of the outer, absorption b and c once through each shell:
+//   up through the inner surface and out, all orders summed as for a stack.
+// The balls are icospheres of four subdivisions with smooth normals: light meets the facets up to
+// 0.046 away from the right angle, where Fresnel's reflectance is constant to 1e-4, and ways within
+// are shorter by up to 0.1 %, in a medium of optical depth 1 at most. Light that comes back misses
+// the middle by less than a tenth of the radius, which makes its next way longer by 0.5 % at most.
+TEST_P(LampTest, ShinesOutOfNestedBalls) {
+  constexpr std::uint32_t kPaths = 20000;
+  const double inner = 0.4, outer = 0.8;
+  const glm::dvec3 glass_left(0.5, 0.8, 0.3), liquid_left(0.6, 0.3, 0.9);
+  const nlohmann::json dark = lambert(glm::dvec3(1e-7));
+  GltfWriter writer;
+  writer.mesh(inside_out(box(glm::vec3(-1.0f), glm::vec3(1.0f))), writer.material(dark));
+  writer.mesh(icosphere(4), writer.material(glass(1.6, glass_left, 1.0)), placed({0, 0, 0}, inner));
+  writer.mesh(icosphere(4), writer.material(glass(1.3, liquid_left, 1.0)),
+              placed({0, 0, 0}, outer));
+  const glm::dvec3 color(1.0, 0.8, 0.6);
+  if (GetParam() == LampKind::point) writer.point_light({0, 0, 0}, color, 1.0);
+  if (GetParam() == LampKind::spot)
+    writer.spot_light({0, 0, 0}, {0.3, 1, 0.2}, color, 1.0, 0.5, 1.0);
+  if (GetParam() == LampKind::triangles) {
+    auto material = with_emission(dark, color);
+    material["doubleSided"] = true;
+    writer.mesh(quad({-0.002, 0, -0.002}, {0, 0, 0.004}, {0.004, 0, 0}), writer.material(material));
+  }
+  writer.camera("any", {0.0, 0.0, 0.9}, {0.0, 0.0, 0.0}, 1.0);
+  const scene::Scene scene = load(writer);
+  const render::SceneBuffers buffers(scene, small_settings(scene), device(), 2);
+  gpu::BindingTable table, photons;
+  buffers.bind(table);
+  render::PhotonTracer tracer(device(), table, {}, 1u << 18, kPaths);
+  tracer.bind_photons(photons);
+  ASSERT_EQ(tracer.trace(PPM_STREAM_PHOTON, 0, 0, kPaths, [] { return false; }),
+            render::PhotonTracer::Result::done);
+  const std::size_t count = tracer.photon_count();
+  const auto positions = photons.get(PPM_BIND_PHOTON_POSITION)->download<glm::uvec4>(count);
+  const auto fluxes = photons.get(PPM_BIND_PHOTON_FLUX)->download<glm::uvec4>(count);
+  glm::dvec3 arrived(0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const shared::Photon photon = shared::unpack_photon(positions[i], fluxes[i]);
+    // On the walls, not on the lamp.
+    if (glm::length(photon.position) > 0.5f) arrived += glm::dvec3(photon.flux);
+  }
+  // Outwards through half a stack, from the middle, where light that comes back only passes.
+  const auto reflectance = [](double from, double to) {
+    return glm::dvec3(std::pow((from - to) / (from + to), 2.0));
+  };
+  const glm::dvec3 r = reflectance(1.6, 1.3), R = reflectance(1.3, 1.0), one(1.0);
+  const glm::dvec3 b = glm::pow(glass_left, glm::dvec3(inner));
+  const glm::dvec3 c = glm::pow(liquid_left, glm::dvec3(outer - inner));
+  const glm::dvec3 shell = one / (one - r * c * c * R);
+  const glm::dvec3 out = (one - r) * c * (one - R) * shell;
+  const glm::dvec3 back = r + (one - r) * (one - r) * c * c * R * shell;
+  const glm::dvec3 escapes = b * out / (one - back * b * b);
+  const double mean = (color.x + color.y + color.z) / 3.0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double expected = kPaths * color[channel] / mean * escapes[channel];
+    // Lossy light is roulette: at most a deviation of 1 a path.
+    EXPECT_NEAR(arrived[channel], expected, 5.0 * std::sqrt(kPaths) * 0.6 + 0.006 * expected);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, LampTest,
+                         ::testing::Values(LampKind::point, LampKind::spot, LampKind::triangles),
+                         [](const auto& test) {
+                           return std::string(test.param == LampKind::point  ? "point"
+                                              : test.param == LampKind::spot ? "spot"
+                                                                             : "triangles");
+                         });
+
+// ---- A furnace
+
+// In a room that shines alike everywhere nothing lossless can be seen: a ball of glass that a ball
+// of liquid overlaps, a bubble of air in it, a denser ball within. Only roulette among faint
+// branches leaves noise.
+TEST_F(Media, NestIsInvisibleInAFurnace) {
+  GltfWriter writer;
+  writer.mesh(inside_out(box(glm::vec3(-1.0f), glm::vec3(1.0f))),
+              writer.material(emitter({1.0, 1.0, 1.0})));
+  const std::size_t crown = writer.material(glass(1.5));
+  const std::size_t water = writer.material(glass(1.33));
+  const std::size_t dense = writer.material(with_priority(glass(1.9), 5));
+  writer.mesh(icosphere(3, Shading::flat), crown, placed({-0.1, 0.0, -0.2}, 0.4));
+  writer.mesh(icosphere(3, Shading::flat), water, placed({0.25, 0.1, -0.1}, 0.35));
+  writer.mesh(icosphere(2, Shading::flat), dense, placed({0.05, 0.0, 0.0}, 0.15));
+  writer.mesh(inside_out(icosphere(2, Shading::flat)), crown, placed({-0.3, 0.0, -0.2}, 0.12));
+  writer.camera("any", {0.0, 0.0, 0.9}, {0.0, 0.0, 0.0}, 0.9);
+  const scene::Scene scene = load(writer);
+  // Enough photons for the few paths that flat facets trap to be no more than the harness allows.
+  const render::Settings settings = small_settings(scene, 32, 32, 40000);
+  const auto blocks =
+      replicate(device(), scene, settings, 1, kSeeds,
+                [](const render::Picture& picture) { return block_means(picture, 8); });
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    EXPECT_TRUE(agrees(blocks[i], glm::dvec3(1.0), kSigmas, 2e-3)) << "block " << i;
+}
+
+}  // namespace
+}  // namespace ppm::test
