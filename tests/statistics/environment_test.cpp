@@ -260,8 +260,8 @@ TEST_P(EnvironmentTest, EmitsItsPower) {
     statistics::expect_mean(flux[static_cast<std::size_t>(c)], power[c], 2e-5 * power[c],
                             GetParam().name);
   }
-  // What the sine varies by within a row is all that fluxes differ by: by much at the poles alone.
-  EXPECT_LT(largest, 2.1 * (power.x + power.y + power.z) / 3.0);
+  // What the sine varies by under a tent is all that fluxes differ by: at the poles threefold.
+  EXPECT_LT(largest, 3.1 * (power.x + power.y + power.z) / 3.0);
 }
 
 // radiance * cosine / density of connections estimates the irradiance of a plane, for which
