@@ -21,14 +21,14 @@ PPM_FN vec3 camera_offset(SceneConstants scene, vec2 film) {
 
 // Where the eye path through a point of the film starts.
 PPM_FN vec3 camera_origin(SceneConstants scene, vec2 film) {
-  if (scene.camera_kind != PPM_CAMERA_ORTHOGRAPHIC) return scene.camera_position;
-  return scene.camera_position + camera_offset(scene, film);
+  float spread = scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC ? 1.0f : 0.0f;
+  return scene.camera_position + camera_offset(scene, film) * spread;
 }
 
 // Direction through a point of the film. Unit.
 PPM_FN vec3 camera_direction(SceneConstants scene, vec2 film) {
-  if (scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) return scene.camera_forward;
-  return normalize(scene.camera_forward + camera_offset(scene, film));
+  float spread = scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC ? 0.0f : 1.0f;
+  return normalize(scene.camera_forward + camera_offset(scene, film) * spread);
 }
 
 // How long a path is before it leaves the camera.
@@ -44,11 +44,10 @@ PPM_FN float pixel_area(SceneConstants scene) {
 
 // Solid angle of the pixel seen along a direction, from camera_distance before the camera.
 PPM_FN float pixel_solid_angle(SceneConstants scene, vec3 direction) {
-  if (scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) {
-    return pixel_area(scene) / (PPM_CAMERA_FAR_AWAY * PPM_CAMERA_FAR_AWAY);
-  }
   float cosine = dot(direction, scene.camera_forward);
-  return pixel_area(scene) * cosine * cosine * cosine;
+  float far_away = 1.0f / (PPM_CAMERA_FAR_AWAY * PPM_CAMERA_FAR_AWAY);
+  return pixel_area(scene) *
+         (scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC ? far_away : cosine * cosine * cosine);
 }
 
 struct CameraImportance {
