@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "gltf_document.hpp"
 
@@ -55,6 +58,18 @@ TEST(Extensions, RequiredOnesAreRefusedWhereTheyAreIgnored) {
     const std::string message = refusal(folder / "scene.gltf");
     EXPECT_EQ(message.find(entry.name) != std::string::npos, entry.treatment == Treatment::ignored)
         << entry.name << ": " << message;
+  }
+}
+
+TEST(Extensions, AreInTheReadmeAsTheyAreTreated) {
+  std::ifstream file(PPM_README);
+  const std::string readme((std::istreambuf_iterator<char>(file)),
+                           std::istreambuf_iterator<char>());
+  for (const ExtensionEntry& entry : scene::known_extensions()) {
+    const std::string row = "| " + std::string(entry.name) + " | " +
+                            scene::treatment_name(entry.treatment) + " | " +
+                            std::string(entry.note) + " |\n";
+    EXPECT_NE(readme.find(row), std::string::npos) << row;
   }
 }
 
