@@ -83,6 +83,11 @@ Device::Implementation::~Implementation() {
   if (handle == VK_NULL_HANDLE) return;
   recorder.reset();
   staging_buffer.reset();
+  for (const auto& [key, shared] : pipelines) {
+    vkDestroyPipeline(handle, shared.pipeline, nullptr);
+    vkDestroyPipelineLayout(handle, shared.layout, nullptr);
+    vkDestroyDescriptorSetLayout(handle, shared.set_layout, nullptr);
+  }
   vkDestroyFence(handle, fence, nullptr);
   vkDestroyCommandPool(handle, command_pool, nullptr);
   vkDestroyDevice(handle, nullptr);

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buffer.hpp"
@@ -20,6 +22,16 @@
 #include "spirv_reflection.hpp"
 
 namespace ppm::gpu {
+
+/// What kernels of one text and the same constants share.
+struct Pipeline {
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+using PipelineKey =
+    std::pair<const std::uint32_t*,  ///< the text, which lives as long as the program
+              std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
 
 /// Handles are null until made, so that the destructor clears up after a construction that failed
 /// halfway.
@@ -65,6 +77,11 @@ struct Device::Implementation {
   std::unique_ptr<RawBuffer> staging_buffer;
   bool maps_device_memory = true;  ///< tests clear it, to copy through staging memory on any device
 
+  /// Of all kernels that were ever made, for the next rendering: drivers take a tenth of a second
+  /// for a large one, whatever they keep on disk. Kernels may be made by several threads.
+  std::map<PipelineKey, Pipeline> pipelines;
+  std::mutex pipelines_access;
+
   bool recording = false;  ///< a Recorder has the command buffer
   std::unique_ptr<Recorder::Implementation> recorder;
   std::map<std::string, KernelTime> times, region_times;
@@ -108,6 +125,7 @@ struct Kernel::Implementation {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkShaderModule module = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
+  bool is_shared = false;  ///< the device owns layouts and pipeline
 
   /// Takes in how long a dispatch took: an exponential moving average.
   void learn(double seconds, std::uint64_t items);
@@ -119,6 +137,9 @@ struct Kernel::Implementation {
   /// How many descriptors each binding has; `constants` gets those that are missing.
   void count_descriptors(std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);
   void check_limits() const;
+  /// Takes layouts and pipeline from the device, if it has them; otherwise it gets those made here.
+  bool take_shared(const PipelineKey& key);
+  void share(const PipelineKey& key);
   void create_layouts();
   /// What the device's profile says about the constants that the shader leaves to it.
   void add_profile(std::vector<std::pair<std::uint32_t, std::uint32_t>>& constants);

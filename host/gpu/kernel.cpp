@@ -33,9 +33,29 @@ void Kernel::Implementation::open(
   }
   count_descriptors(all);
   check_limits();
-  create_layouts();
   add_profile(all);
+  const PipelineKey key{shader.words.data(), all};
+  if (take_shared(key)) return;
+  create_layouts();
   create_pipeline(shader, all);
+  share(key);
+}
+
+bool Kernel::Implementation::take_shared(const PipelineKey& key) {
+  const std::scoped_lock lock(device.pipelines_access);
+  const auto found = device.pipelines.find(key);
+  if (found == device.pipelines.end()) return false;
+  set_layout = found->second.set_layout;
+  layout = found->second.layout;
+  pipeline = found->second.pipeline;
+  is_shared = true;
+  return true;
+}
+
+void Kernel::Implementation::share(const PipelineKey& key) {
+  const std::scoped_lock lock(device.pipelines_access);
+  // Another thread may have made the same meanwhile; then these stay this kernel's own.
+  is_shared = device.pipelines.try_emplace(key, Pipeline{set_layout, layout, pipeline}).second;
 }
 
 void Kernel::Implementation::add_profile(
@@ -155,6 +175,7 @@ void Kernel::Implementation::create_pipeline(
 }
 
 Kernel::Implementation::~Implementation() {
+  if (is_shared) return;
   vkDestroyPipeline(device.handle, pipeline, nullptr);
   vkDestroyShaderModule(device.handle, module, nullptr);
   vkDestroyPipelineLayout(device.handle, layout, nullptr);
