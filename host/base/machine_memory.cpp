@@ -16,8 +16,7 @@ std::optional<std::uint64_t> first_number(const std::string& text) {
   const std::size_t digits = text.find_first_of("0123456789");
   if (digits == std::string::npos) return std::nullopt;
   std::uint64_t value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data() + digits, text.data() + text.size(), value);
+  const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), value);
   return error == std::errc{} ? std::optional(value) : std::nullopt;
 }
 
@@ -31,8 +30,8 @@ std::optional<std::uint64_t> number_at(const std::filesystem::path& file, const 
 }
 
 /// Version 2 or 1, as a container sees its own group. What is only cached can be given back.
-std::uint64_t left_in_group(const std::filesystem::path& group, const char* limit,
-                            const char* used, const char* reclaimable) {
+std::uint64_t left_in_group(const std::filesystem::path& group, const char* limit, const char* used,
+                            const char* reclaimable) {
   const auto most = number_at(group / limit, "");
   const auto now = number_at(group / used, "");
   if (!most || !now) return kUnknown;
