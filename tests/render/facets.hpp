@@ -1,4 +1,4 @@
-// Rough glass in double precision, by integrals over its facets.
+// Surfaces of GGX facets in double precision, by integrals over these.
 #pragma once
 
 namespace ppm::test {
@@ -12,7 +12,8 @@ struct FacetShares {
 };
 FacetShares facet_shares(double alpha, double eta, double cosine, bool thin = false);
 
-/// What a GGX lobe with Schlick's Fresnel term reflects.
+/// What a GGX lobe with Schlick's Fresnel term reflects of light from a direction of this cosine:
+/// light that meets a second facet is lost.
 double coat_share(double alpha, double f0, double f90, double cosine);
 
 }  // namespace ppm::test

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 
+#include "facets.hpp"
 #include "render_harness.hpp"
 
 namespace ppm::test {
@@ -18,39 +19,10 @@ constexpr unsigned kPasses = 4, kSeeds = 8;
 
 // ---- Directional albedo
 
-// Smith's masking of GGX, as G1 = 2 / (1 + sqrt(1 + alpha^2 tan^2)).
-double masking(double alpha, double cosine) {
-  const double tan2 = (1.0 - cosine * cosine) / (cosine * cosine);
-  return 2.0 / (1.0 + std::sqrt(1.0 + alpha * alpha * tan2));
-}
-
-// What a GGX surface with height-correlated masking and Schlick's Fresnel term reflects in all of
-// light from direction wo, by midpoints over microfacet normals h. With D in its textbook form,
-// dw_i = 4 (wo.h) dh, and 1 / G = 1 / G1(o) + 1 / G1(i) - 1:
-//   A = int D(h) G F(wo.h) (wo.h) / cos(o) dh  over h that are visible and reflect upwards.
-glm::dvec3 glossy_albedo(double alpha, glm::dvec3 f0, double cos_o) {
-  constexpr int kTilts = 1500, kTurns = 180;
-  const glm::dvec3 wo(std::sqrt(1.0 - cos_o * cos_o), 0.0, cos_o);
-  glm::dvec3 sum(0.0);
-  for (int i = 0; i < kTilts; ++i) {
-    // tan = alpha s / (1 - s) spreads steps over the distribution's peak and its tail alike.
-    const double s = (i + 0.5) / kTilts, tangent = alpha * s / (1.0 - s);
-    const double cos_h = 1.0 / std::sqrt(1.0 + tangent * tangent), sin_h = tangent * cos_h;
-    const double step = alpha / ((1.0 - s) * (1.0 - s)) / kTilts * cos_h * cos_h;  // d theta
-    const double d =
-        alpha * alpha /
-        (kPi * std::pow(cos_h, 4.0) * std::pow(alpha * alpha + tangent * tangent, 2.0));
-    for (int j = 0; j < kTurns; ++j) {
-      const double turn = (j + 0.5) * kPi / kTurns;  // the other half is its mirror image
-      const glm::dvec3 h(sin_h * std::cos(turn), sin_h * std::sin(turn), cos_h);
-      const double oh = glm::dot(wo, h), cos_i = 2.0 * oh * cos_h - cos_o;
-      if (oh <= 0.0 || cos_i <= 0.0) continue;
-      const double g = 1.0 / (1.0 / masking(alpha, cos_o) + 1.0 / masking(alpha, cos_i) - 1.0);
-      const glm::dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1.0 - oh, 5.0);
-      sum += fresnel * (d * g * oh / cos_o * sin_h * step * 2.0 * kPi / kTurns);
-    }
-  }
-  return sum;
+/// What a GGX surface with Schlick's Fresnel term reflects of all light from one direction.
+glm::dvec3 glossy_albedo(double alpha, glm::dvec3 f0, double cosine) {
+  return {coat_share(alpha, f0.x, 1.0, cosine), coat_share(alpha, f0.y, 1.0, cosine),
+          coat_share(alpha, f0.z, 1.0, cosine)};
 }
 
 struct Finish {
