@@ -4,7 +4,7 @@
 #
 # What spirv-opt says of functions that it leaves to the driver, for they return early, is shown if it fails alone.
 execute_process(
-  COMMAND ${SPIRV_OPT} --scalar-block-layout --inline-entry-points-exhaustive --eliminate-dead-functions
+  COMMAND ${SPIRV_OPT} --scalar-block-layout --eliminate-dead-branches --inline-entry-points-exhaustive --eliminate-dead-functions --eliminate-dead-branches
           --scalar-replacement=0 --ssa-rewrite --eliminate-dead-code-aggressive --redundancy-elimination
           --eliminate-dead-code-aggressive ${FILE} -o ${FILE}
   RESULT_VARIABLE result

@@ -22,8 +22,9 @@ Estimator::Estimator(gpu::Device& device, const gpu::BindingTable& scene, const 
     : device_(device),
       scene_(scene),
       order_(device, traits, tile_hits),
-      gather_(device, shaders::gather, traits.specialisation()),
-      gather_slices_(device, shaders::gather_slices, traits.specialisation()),
+      gather_(make_kernel(device, traits, shaders::gather, shaders::gather_plain)),
+      gather_slices_(
+          make_kernel(device, traits, shaders::gather_slices, shaders::gather_slices_plain)),
       update_(device, shaders::update),
       resolve_(device, shaders::resolve),
       radius_(device, shaders::radius),

@@ -43,8 +43,8 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
 }
 
 EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits)
-    : start(device, shaders::eye, traits.specialisation({{kGenerate, 1}})),
-      go_on(device, shaders::eye, traits.specialisation({{kGenerate, 0}})),
+    : start(make_kernel(device, traits, shaders::eye, shaders::eye_plain, {{kGenerate, 1}})),
+      go_on(make_kernel(device, traits, shaders::eye, shaders::eye_plain, {{kGenerate, 0}})),
       scatter(device, shaders::eye_scatter),
       order(device, shaders::eye_order),
       layers(traits.layers) {}

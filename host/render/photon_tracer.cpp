@@ -30,7 +30,7 @@ PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene,
                            const SceneTraits& traits, std::uint64_t photon_capacity,
                            std::uint64_t path_capacity)
     : device_(device),
-      kernel_(device, shaders::photon, traits.specialisation()),
+      kernel_(make_kernel(device, traits, shaders::photon, shaders::photon_plain)),
       table_(scene),
       photon_capacity_(photon_capacity),
       path_capacity_(path_capacity),

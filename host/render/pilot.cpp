@@ -29,7 +29,8 @@ Pilot::Pilot(gpu::Device& device, const SceneTraits& traits, std::span<const Hit
     : device_(device),
       tiles_(tiles),
       traits_(traits),
-      decide_at_once_(device, shaders::pilot, traits.specialisation({{kDecide, 1}})),
+      decide_at_once_(
+          make_kernel(device, traits, shaders::pilot, shaders::pilot_plain, {{kDecide, 1}})),
       counters_(device) {
   const auto list = [&](const char* name, const HitTile& tile) {
     return gpu::Buffer(device, name, tile.hits * 4ull, gpu::Usage::storage);
@@ -73,7 +74,7 @@ std::optional<std::uint64_t> Pilot::decide(const PhotonGrid& grid, const Round& 
 }
 
 void Pilot::count(const PhotonGrid& grid, const Round& round) {
-  if (!count_) count_.emplace(device_, shaders::pilot, traits_.specialisation());
+  if (!count_) count_ = make_kernel(device_, traits_, shaders::pilot, shaders::pilot_plain);
   shared::PilotPush push = push_of(round);
   push.grid = grid.constants();
   for (std::size_t i = 0; i < tiles_.size(); ++i) {

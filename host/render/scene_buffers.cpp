@@ -168,7 +168,7 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   media_ = texel_buffer(device, "media", media.records);
   light_media_ = gpu::Buffer(device, "media of lights", (lights.records.size() + 1) * 4,
                              gpu::Usage::storage_and_texels);
-  find_start_media(device, !media.records.empty());
+  find_start_media(device, traits_of(scene));
   upload_seconds_ = clock_seconds() - built;
 }
 
@@ -210,15 +210,15 @@ void SceneBuffers::add_segments(SceneTraits& traits) const {
   add(PPM_BIND_LIGHTS, lights_);
 }
 
-void SceneBuffers::find_start_media(gpu::Device& device, bool has_media) {
+void SceneBuffers::find_start_media(gpu::Device& device, SceneTraits traits) {
   const std::uint64_t starts = std::uint64_t{constants_.light_count} + 1;
-  if (!has_media) {
+  if (!traits.media) {
     device.run([&](gpu::Recorder& recorder) { recorder.fill(light_media_, 0, starts * 4); });
     return;
   }
-  SceneTraits traits;
   add_segments(traits);
-  const gpu::Kernel kernel(device, shaders::start_media, traits.specialisation());
+  const gpu::Kernel kernel =
+      make_kernel(device, traits, shaders::start_media, shaders::start_media_plain);
   gpu::BindingTable table;
   bind(table);
   device.run([&](gpu::Recorder& recorder) {

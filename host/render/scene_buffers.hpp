@@ -38,8 +38,8 @@ class SceneBuffers {
   void upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
                         gpu::Device& device, unsigned threads);
   void upload_textures(const scene::Scene& scene, gpu::Device& device);
-  /// Fills `light_media_`.
-  void find_start_media(gpu::Device& device, bool has_media);
+  /// Fills `light_media_`. `traits`: as the scene alone has them.
+  void find_start_media(gpu::Device& device, SceneTraits traits);
 
   gpu::SegmentSize segment_;
   shared::SceneConstants constants_{};

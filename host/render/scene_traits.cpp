@@ -51,6 +51,16 @@ SceneTraits::Constants SceneTraits::specialisation(Constants own) const {
   return own;
 }
 
+bool SceneTraits::is_plain() const {
+  return segments.empty() && !textures && !details && !coverage && !layers && !dispersion &&
+         !environment && !textured_lights;
+}
+
+gpu::Kernel make_kernel(gpu::Device& device, const SceneTraits& traits, const gpu::Shader& any,
+                        const gpu::Shader& plain, SceneTraits::Constants own) {
+  return {device, traits.is_plain() ? plain : any, traits.specialisation(std::move(own))};
+}
+
 SceneTraits traits_of(const scene::Scene& scene) {
   const auto any = [&](auto has) { return std::ranges::any_of(scene.materials, has); };
   SceneTraits traits;

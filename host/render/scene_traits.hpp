@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel.hpp"
 #include "scene.hpp"
 
 namespace ppm::render {
@@ -31,7 +32,15 @@ struct SceneTraits {
   /// The same as constants of the kernels (shaders/lib/scene_kinds.glsl).
   using Constants = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
   Constants specialisation(Constants own = {}) const;  ///< added to the kernel's own
+
+  /// Needs nothing but kernels compiled for plain scenes (there as well).
+  bool is_plain() const;
 };
+
+/// A kernel for such a scene, out of the two that the build makes of its text. `own`: constants
+/// that are not the scene's.
+gpu::Kernel make_kernel(gpu::Device& device, const SceneTraits& traits, const gpu::Shader& any,
+                        const gpu::Shader& plain, SceneTraits::Constants own = {});
 
 SceneTraits traits_of(const scene::Scene& scene);
 

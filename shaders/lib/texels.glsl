@@ -11,7 +11,12 @@
 // The same for what may be larger than one buffer ought to be: segments of 2^kSegmentShift texels, all of them full
 // but the last, in an array of as many buffers as the constant PPM_SPEC_SEGMENTS + number says. No device need index
 // it dynamically; where there is one segment, as in all but huge scenes, nothing of the others is left. (The host
-// sets the constant; by default there are as many as there may be, so that no index is out of range.)
+// sets the constant; by default there are as many as there may be, so that no index is out of range.) Plain scenes
+// (lib/scene_kinds.glsl) have one segment of each.
+#ifdef PPM_PLAIN_SCENE
+#define PPM_SEGMENTED_TEXELS(number, name) PPM_TEXELS(number, name)
+#define PPM_FETCH_SEGMENTED(name, index) PPM_FETCH(name, index)
+#else
 layout(constant_id = PPM_SPEC_SEGMENT_SHIFT) const uint kSegmentShift = 23u;
 
 #define PPM_FETCH_SEGMENT(name, i) \
@@ -32,5 +37,6 @@ layout(constant_id = PPM_SPEC_SEGMENT_SHIFT) const uint kSegmentShift = 23u;
     return texelFetch(name[0], within);                                                      \
   }
 #define PPM_FETCH_SEGMENTED(name, index) name##_texel(index)
+#endif
 
 #endif

@@ -2,10 +2,13 @@
 // mirrors, and the cap that ends paths which nothing else would.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "device_fixture.hpp"
 #include "photon_tracer.hpp"
+#include "room.hpp"
 #include "scene_buffers.hpp"
 #include "scene_pieces.hpp"
 #include "shared/photon.h"
@@ -24,11 +27,12 @@ class PhotonPaths : public DeviceTest {
     std::uint32_t cut = 0, rejected = 0;
   };
 
-  Result trace(const scene::Scene& scene, std::uint32_t paths) {
+  Result trace(const scene::Scene& scene, std::uint32_t paths,
+               const render::SceneTraits& traits = {}) {
     const render::SceneBuffers buffers(scene, small_settings(), device(), 2);
     gpu::BindingTable table;
     buffers.bind(table);
-    render::PhotonTracer tracer(device(), table, {}, 1u << 16, 1u << 14);
+    render::PhotonTracer tracer(device(), table, traits, 1u << 16, 1u << 14);
     EXPECT_EQ(tracer.trace(PPM_STREAM_PHOTON, 0, 0, paths, [] { return false; }),
               render::PhotonTracer::Result::done);
     gpu::BindingTable photons;
@@ -117,6 +121,29 @@ TEST_F(PhotonPaths, LightCaughtBetweenMirrorsIsCutAndCounted) {
   EXPECT_EQ(result.cut, 500u);  // none escapes, none is absorbed
   EXPECT_EQ(result.photons.size(), 0u);
   EXPECT_EQ(result.rejected, 0u);
+}
+
+// The kernels for plain scenes are compiled apart from those for any scene, and must be the same to
+// the bit.
+TEST_F(PhotonPaths, PlainScenesAreTracedAsAnyOther) {
+  const scene::Scene room = bench::make_room(6000);
+  const render::SceneTraits plain = render::traits_of(room);
+  render::SceneTraits any = plain;
+  any.textures = any.textured_lights = true;
+  ASSERT_TRUE(plain.is_plain());
+  ASSERT_FALSE(any.is_plain());
+  const auto records = [&](const render::SceneTraits& traits) {
+    std::vector<std::array<float, 10>> result;
+    for (const Photon& p : trace(room, 8000, traits).photons) {
+      result.push_back({p.position.x, p.position.y, p.position.z, p.incident.x, p.incident.y,
+                        p.incident.z, p.flux.x, p.flux.y, p.flux.z, static_cast<float>(p.events)});
+    }
+    std::ranges::sort(result);  // their order is arbitrary
+    return result;
+  };
+  const auto expected = records(any);
+  EXPECT_GT(expected.size(), 8000u);
+  EXPECT_EQ(records(plain), expected);
 }
 
 }  // namespace
