@@ -76,7 +76,13 @@
 #define PPM_BIND_LIGHT_MEDIA 47  // uint: media that each light starts in; at the end the camera
 #define PPM_BIND_ENVIRONMENT 48  // uvec4 a texel: radiance, bin of the alias table
 
-#define PPM_BINDING_LIMIT 56
+// The film of methods that add up samples (shared/film.h).
+#define PPM_BIND_FILM_CONSTANTS 49  // uniform block FilmConstants
+#define PPM_BIND_FILM_RED 50        // FilmSum a pixel
+#define PPM_BIND_FILM_GREEN 51
+#define PPM_BIND_FILM_BLUE 52
+
+#define PPM_BINDING_LIMIT 72
 
 // Specialisation constants that the device's profile sets in every kernel that declares them
 // (host/gpu/device_profile.hpp). Kernels' own ones are below.
