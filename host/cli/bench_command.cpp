@@ -115,7 +115,8 @@ std::string settings_text(const BenchOptions& options) {
       "{} passes after {}, {} repetitions{}",
       settings.integrator, size, settings.samples_per_pixel, settings.photons_per_pass,
       settings.alpha, render::radius_text(settings), settings.seed, settings.max_depth,
-      render.passes, options.warmup, options.repetitions, options.scaling ? ", scaling" : "");
+      render.passes_or_usual(), options.warmup, options.repetitions,
+      options.scaling ? ", scaling" : "");
 }
 
 /// Opens the device that all will run on, to tell of it and to fail early.
@@ -135,7 +136,7 @@ std::optional<bench::Results> measure(const BenchOptions& options,
   bench::Plan plan;
   plan.repetitions = options.repetitions;
   plan.warmup = options.warmup;
-  plan.passes = options.render.passes;
+  plan.passes = options.render.passes_or_usual();
   plan.aged = options.aged;
   plan.device = options.render.device;
   plan.threads = thread_count(options.render.threads);

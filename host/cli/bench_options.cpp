@@ -87,8 +87,9 @@ void declare_bench(CLI::App& app, BenchOptions& options) {
   declare_testing(declare, options.render);
 }
 
-void check_bench(const CLI::App& app, const BenchOptions& options) {
+void check_bench(const CLI::App& app, BenchOptions& options) {
   check_extras(app);
+  take_method(app, options.render);
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     const std::string& scene = options.scenes[i];
     if (scene.starts_with('-')) throw CLI::ValidationError(scene, "no such option");

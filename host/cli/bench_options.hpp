@@ -12,6 +12,6 @@ bool is_scene(const std::string& name);
 
 void declare_bench(CLI::App& app, BenchOptions& options);
 /// What no option can tell alone; throws CLI::ParseError.
-void check_bench(const CLI::App& app, const BenchOptions& options);
+void check_bench(const CLI::App& app, BenchOptions& options);
 
 }  // namespace ppm::cli

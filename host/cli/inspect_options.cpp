@@ -24,8 +24,9 @@ void declare_inspect(CLI::App& app, InspectOptions& options) {
   declare_memory(declare, options.render);
 }
 
-void check_inspect(const CLI::App& app, const InspectOptions& options) {
+void check_inspect(const CLI::App& app, InspectOptions& options) {
   check_extras(app);
+  take_method(app, options.render);
   if (options.render.scene.empty()) throw CLI::ValidationError("SCENE", "no scene file is given");
   check_camera(options.render);
 }

@@ -9,6 +9,6 @@ namespace ppm::cli {
 
 void declare_inspect(CLI::App& app, InspectOptions& options);
 /// What no option can tell alone; throws CLI::ParseError.
-void check_inspect(const CLI::App& app, const InspectOptions& options);
+void check_inspect(const CLI::App& app, InspectOptions& options);
 
 }  // namespace ppm::cli

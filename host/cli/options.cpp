@@ -62,7 +62,7 @@ std::string explain(const CLI::ArgumentMismatch& error, const CLI::App& app) {
 /// Parses with what `declare` declares, then asks `check`; both name what CLI11 throws.
 Options parse_verb(Verb verb, const std::string& name, std::vector<std::string> arguments,
                    const std::function<void(CLI::App&, Options&)>& declare,
-                   const std::function<void(const CLI::App&, const Options&)>& check) {
+                   const std::function<void(const CLI::App&, Options&)>& check) {
   Options options;
   CLI::App app("", "ppm-vk " + name);
   const std::string remedy = "see ppm-vk help " + name;
@@ -86,21 +86,21 @@ Options parse_render(const std::vector<std::string>& arguments) {
   return parse_verb(
       Verb::render, "render", arguments,
       [](CLI::App& app, Options& options) { declare_render(app, options.render); },
-      [](const CLI::App& app, const Options& options) { check_render(app, options.render); });
+      [](const CLI::App& app, Options& options) { check_render(app, options.render); });
 }
 
 Options parse_bench(const std::vector<std::string>& arguments) {
   return parse_verb(
       Verb::bench, "bench", arguments,
       [](CLI::App& app, Options& options) { declare_bench(app, options.bench); },
-      [](const CLI::App& app, const Options& options) { check_bench(app, options.bench); });
+      [](const CLI::App& app, Options& options) { check_bench(app, options.bench); });
 }
 
 Options parse_inspect(const std::vector<std::string>& arguments) {
   return parse_verb(
       Verb::inspect, "inspect", arguments,
       [](CLI::App& app, Options& options) { declare_inspect(app, options.inspect); },
-      [](const CLI::App& app, const Options& options) { check_inspect(app, options.inspect); });
+      [](const CLI::App& app, Options& options) { check_inspect(app, options.inspect); });
 }
 
 Options parse_help(const std::vector<std::string>& arguments) {

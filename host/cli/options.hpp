@@ -23,8 +23,10 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   std::optional<std::uint32_t> width,
       height;  ///< Settings::width and height follow once the camera is known
-  std::uint64_t passes = 64;
-  std::string camera;  ///< name or index, empty: the first
+  std::optional<std::uint64_t> passes;
+  std::uint64_t usual_passes = 64;  ///< where neither passes nor seconds are given
+  std::optional<double> seconds;    ///< that the rendering may take
+  std::string camera;               ///< name or index, empty: the first
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
   std::optional<double> camera_fov;  ///< full vertical angle, degrees
   double exposure = 0.0;
@@ -34,12 +36,14 @@ struct RenderOptions {
   Verbosity verbosity = Verbosity::normal;
   gpu::DeviceOptions device;
   render::Settings settings;  ///< all but width, height, camera
+
+  std::uint64_t passes_or_usual() const { return passes.value_or(usual_passes); }
 };
 
 /// `ppm-vk bench ...`, likewise.
 struct BenchOptions {
   BenchOptions() {
-    render.passes = 4;
+    render.usual_passes = 4;
     render.settings.samples_per_pixel = 1;
   }
 

@@ -82,8 +82,10 @@ int render_command(const RenderOptions& options) {
   render::Circumstances circumstances = circumstances_for(scene, options.load, device);
   circumstances.load_seconds = load_seconds;
   circumstances.seconds_before = seconds_since(start);
-  const render::Outcome outcome = render::drive(*integrator, settings, {options.passes}, outputs,
-                                                circumstances, interruption, log);
+  render::Budget budget{options.passes, options.seconds};
+  if (!options.seconds) budget.passes = options.passes_or_usual();
+  const render::Outcome outcome =
+      render::drive(*integrator, settings, budget, outputs, circumstances, interruption, log);
   return exit_code(outcome, device);
 }
 

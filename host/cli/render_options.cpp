@@ -15,6 +15,7 @@ namespace ppm::cli {
 namespace {
 
 constexpr std::uint32_t kLargestSide = 32768;
+constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, where all are kept at once
 
 void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
   declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
@@ -77,15 +78,30 @@ void declare_filter(Declarer& declare, render::Settings& settings) {
 }
 
 void declare_integrator(Declarer& declare, render::Settings& settings) {
-  declare.text("--integrator", "NAME", fmt::format("method (default {})", settings.integrator),
-               [&](const std::string& value) {
-                 const auto names = render::integrator_names();
-                 if (std::find(names.begin(), names.end(), value) == names.end()) {
-                   throw refusal("--integrator", value,
-                                 fmt::format("one of {}", fmt::join(names, ", ")));
-                 }
-                 settings.integrator = value;
-               });
+  std::string help = fmt::format("method (default {})", settings.integrator);
+  std::vector<std::string_view> names;
+  for (const render::Method& method : render::methods()) {
+    help += fmt::format("\n  {:8}{}", method.name, method.summary);
+    names.push_back(method.name);
+  }
+  declare.text("--integrator", "NAME", help, [&, names](const std::string& value) {
+    if (std::ranges::find(names, value) == names.end()) {
+      throw refusal("--integrator", value, fmt::format("one of {}", fmt::join(names, ", ")));
+    }
+    settings.integrator = value;
+  });
+}
+
+/// "30", "30s", "1.5m", "2h" as seconds.
+std::optional<double> parse_duration(std::string_view text) {
+  double unit = 1.0;
+  if (text.ends_with('s') || text.ends_with('m') || text.ends_with('h')) {
+    unit = text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : 3600.0;
+    text.remove_suffix(1);
+  }
+  const std::optional<double> value = parse_finite(text);
+  if (!value || *value <= 0.0 || *value * unit > 1e8) return std::nullopt;
+  return *value * unit;
 }
 
 }  // namespace
@@ -96,7 +112,7 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
   declare.group("Method");
   declare_integrator(declare, settings);
   declare.whole<std::uint64_t>("--passes", options.passes, 1, kMany,
-                               fmt::format("{} (default {})", passes, options.passes));
+                               fmt::format("{} (default {})", passes, options.usual_passes));
   declare.whole<std::uint64_t>(
       "--photons", settings.photons_per_pass, 1, kMany,
       fmt::format("photon paths emitted a pass (default {})", settings.photons_per_pass));
@@ -109,8 +125,10 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
       });
   declare_radius(declare, settings);
   declare.whole<std::uint32_t>(
-      "--spp", settings.samples_per_pixel, 1, 65536,
-      fmt::format("eye paths a pixel, stratified (default {})", settings.samples_per_pixel));
+      "--spp", settings.samples_per_pixel, 1, kMany,
+      fmt::format("eye paths a pixel, stratified (default {}); methods whose\n"
+                  "passes are samples: the same as --passes",
+                  settings.samples_per_pixel));
   declare_filter(declare, settings);
   declare.whole<std::uint32_t>(
       "--seed", settings.seed, 0, std::numeric_limits<std::uint32_t>::max(),
@@ -119,6 +137,18 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
       "--max-depth", settings.max_depth, 0, 255,
       fmt::format("scattering events between light and eye at most; 0: no limit (default {})",
                   settings.max_depth));
+}
+
+void declare_time(Declarer& declare, RenderOptions& options) {
+  declare.text("--time", "30|90s|10m|2h",
+               "time of rendering; the pass in hand is finished. Without --passes\n"
+               "as many as that takes",
+               [&](const std::string& value) {
+                 options.seconds = parse_duration(value);
+                 if (!options.seconds) {
+                   throw refusal("--time", value, "a time such as 30, 90s, 10m or 2h");
+                 }
+               });
 }
 
 void declare_camera(Declarer& declare, RenderOptions& options) {
@@ -232,7 +262,8 @@ void declare_render(CLI::App& app, RenderOptions& options) {
   app.allow_extras();
   Declarer declare(app);
   declare_files(declare, options, app);
-  declare_method(declare, options, "photon passes");
+  declare_method(declare, options, "passes: of photons, or samples of each pixel");
+  declare_time(declare, options);
   declare_camera(declare, options);
   declare_lights(declare, options);
   declare_machine(declare, options);
@@ -245,6 +276,30 @@ void check_extras(const CLI::App& app) {
   const bool is_option = extras.front().starts_with('-');
   throw CLI::ValidationError(extras.front(),
                              is_option ? "no such option" : "one argument too many");
+}
+
+void take_method(const CLI::App& app, RenderOptions& options) {
+  const render::Method method = render::method_named(options.settings.integrator);
+  for (const render::Method& other : render::methods()) {
+    for (const CLI::Option* const option : app.get_options()) {
+      const std::string name = option->get_name();
+      if (option->count() == 0 || !other.has_option(name) || method.has_option(name)) continue;
+      throw CLI::ValidationError(name, fmt::format("is no option of --integrator {}", method.name));
+    }
+  }
+  std::uint32_t& samples = options.settings.samples_per_pixel;
+  const bool has_samples = app.count("--spp") > 0;
+  if (method.unit != render::PassUnit::photons) {
+    if (has_samples && options.passes && *options.passes != samples) {
+      throw CLI::ValidationError(
+          "--spp", fmt::format("means the same as --passes with --integrator {}", method.name));
+    }
+    if (has_samples) options.passes = samples;
+    samples = 1;
+  } else if (samples > kMostSamples) {
+    throw refusal("--spp", std::to_string(samples),
+                  fmt::format("a whole number from 1 to {}", kMostSamples));
+  }
 }
 
 void check_shared(const CLI::App& app, const RenderOptions& options) {
@@ -269,8 +324,9 @@ void check_camera(const RenderOptions& options) {
   }
 }
 
-void check_render(const CLI::App& app, const RenderOptions& options) {
+void check_render(const CLI::App& app, RenderOptions& options) {
   check_extras(app);
+  take_method(app, options);
   if (options.scene.empty()) throw CLI::ValidationError("SCENE", "no scene file is given");
   if (options.outputs.empty()) {
     throw CLI::ValidationError("-o", "no picture to write is given, such as -o out.exr");

@@ -8,7 +8,7 @@ namespace ppm::cli {
 
 void declare_render(CLI::App& app, RenderOptions& options);
 /// What no option can tell alone; throws CLI::ParseError.
-void check_render(const CLI::App& app, const RenderOptions& options);
+void check_render(const CLI::App& app, RenderOptions& options);
 
 /// Groups of options; help names the defaults that `options` has, and says of --passes what they
 /// are.
@@ -18,6 +18,9 @@ void declare_lights(Declarer& declare, RenderOptions& options);
 void declare_memory(Declarer& declare, RenderOptions& options);
 void declare_machine(Declarer& declare, RenderOptions& options);
 void declare_testing(Declarer& declare, RenderOptions& options);
+/// Once all are read: refuses what the method does not have, and makes --spp the number of passes
+/// of methods whose passes are samples.
+void take_method(const CLI::App& app, RenderOptions& options);
 /// What is wrong with the camera's options together.
 void check_camera(const RenderOptions& options);
 /// Their part of the check, and arguments that nothing takes.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <map>
@@ -26,20 +27,36 @@ extern "C" void note_interruption(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-/// Whether the budget was spent.
+/// Whether the budget was spent, or the method is complete. `start`: when the time of the budget
+/// began, by clock_seconds.
 bool advance_all(Integrator& integrator, const Settings& settings, const Budget& budget,
-                 const Interruption& interruption, const Log& log) {
+                 double start, const Interruption& interruption, const Log& log) {
   const auto interrupted = [&] { return interruption.requested(); };
-  Progress progress(log, budget.passes);
+  Progress progress(log, budget.passes, std::uint64_t{settings.width} * settings.height);
   progress.preparing();
   if (!integrator.prepare(interrupted)) return false;
   progress.passing();
-  for (std::uint64_t passes = 0; passes < budget.passes;) {
-    const std::uint64_t made =
-        interrupted() ? 0 : integrator.advance_up_to(budget.passes - passes, interrupted);
+  const double prepared = clock_seconds();
+  std::uint64_t passes = 0, wanted = budget.passes.value_or(UINT64_MAX);
+  while (passes < wanted && !integrator.complete()) {
+    std::uint64_t at_a_time = wanted - passes;
+    std::optional<double> seconds_left;
+    if (budget.seconds) {
+      const double now = clock_seconds();
+      seconds_left = start + *budget.seconds - now;
+      if (*seconds_left <= 0.0 && passes > 0) return true;
+      // As many as are likely to end in time; a pass that was begun is finished.
+      const double pass_seconds = (now - prepared) / std::max<double>(1.0, passes);
+      const double in_time = passes > 0 ? *seconds_left / pass_seconds : 1.0;
+      at_a_time = std::min(at_a_time, static_cast<std::uint64_t>(std::clamp(in_time, 1.0, 1e9)));
+    }
+    const std::uint64_t made = interrupted() ? 0 : integrator.advance_up_to(at_a_time, interrupted);
     if (made == 0) return false;
     passes += made;
-    progress.passed(passes, passes * settings.photons_per_pass);
+    if (budget.seconds) seconds_left = start + *budget.seconds - clock_seconds();
+    const bool last =
+        passes == wanted || integrator.complete() || seconds_left.value_or(1.0) <= 0.0;
+    progress.passed(integrator.statistics(), seconds_left, last);
   }
   return true;
 }
@@ -100,14 +117,15 @@ Outcome drive(Integrator& integrator, const Settings& settings, const Budget& bu
               const Interruption& interruption, Log& log) {
   const double start = clock_seconds();
   check_outputs(outputs);
-  const bool complete = advance_all(integrator, settings, budget, interruption, log);
+  const bool complete = advance_all(integrator, settings, budget, start, interruption, log);
 
   const Picture picture = integrator.resolve();
   const Statistics& statistics = integrator.statistics();
   warn_of_losses(statistics, log);
   if (!complete) {
-    log.warn(fmt::format("interrupted after {} of {} passes; the picture so far is written",
-                         statistics.passes, budget.passes));
+    const std::string wanted = budget.passes ? fmt::format(" of {}", *budget.passes) : "";
+    log.warn(fmt::format("interrupted after {}{} {}; the picture so far is written",
+                         statistics.passes, wanted, pass_names(statistics)));
   }
   const double writing_start = clock_seconds();
   const auto attributes = picture_attributes(settings, circumstances, statistics);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ class Interruption {
   bool requested() const;
 };
 
-/// When a rendering is complete.
+/// When a rendering is complete: as soon as either is spent, or the method has all it can take.
 struct Budget {
-  std::uint64_t passes = 64;
+  std::optional<std::uint64_t> passes;  ///< nothing: any number
+  /// From the call of `drive` on. The pass in hand then is finished. Nothing: any time.
+  std::optional<double> seconds;
 };
 
 /// Where the results go.

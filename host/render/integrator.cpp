@@ -1,5 +1,7 @@
 #include "integrator.hpp"
 
+#include <algorithm>
+
 #include "failure.hpp"
 #include "ppm.hpp"
 
@@ -16,29 +18,47 @@ std::unique_ptr<Integrator> create(const Settings& settings, const scene::Scene&
 }
 
 struct Entry {
-  std::string_view name;
+  Method method;
   Factory make;
 };
 
 constexpr Entry kIntegrators[] = {
-    {"ppm", create<PpmIntegrator>},
+    {{"ppm", "progressive photon mapping", PassUnit::photons, "--photons --alpha --radius"},
+     create<PpmIntegrator>},
 };
+
+const Entry& entry_named(std::string_view name) {
+  for (const Entry& entry : kIntegrators) {
+    if (entry.method.name == name) return entry;
+  }
+  throw Failure("", "--integrator", "unknown method '" + std::string(name) + "'",
+                "see ppm-vk help render");
+}
 
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene,
                                             gpu::Device& device, Log& log, unsigned threads) {
-  for (const Entry& entry : kIntegrators) {
-    if (entry.name == settings.integrator) return entry.make(settings, scene, device, log, threads);
-  }
-  throw Failure("", "--integrator", "unknown method '" + settings.integrator + "'",
-                "see ppm-vk help render");
+  return entry_named(settings.integrator).make(settings, scene, device, log, threads);
 }
 
-std::vector<std::string_view> integrator_names() {
-  std::vector<std::string_view> names;
-  for (const Entry& entry : kIntegrators) names.push_back(entry.name);
-  return names;
+bool Method::has_option(std::string_view option) const {
+  for (std::string_view rest = options; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == option) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+std::vector<Method> methods() {
+  std::vector<Method> all;
+  for (const Entry& entry : kIntegrators) all.push_back(entry.method);
+  return all;
+}
+
+Method method_named(std::string_view name) {
+  return entry_named(name).method;
 }
 
 }  // namespace ppm::render

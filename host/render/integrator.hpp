@@ -51,6 +51,7 @@ struct Picture {
 struct Statistics {
   std::uint64_t triangles = 0, lights = 0, hit_points = 0, tiles = 0;
   std::uint64_t passes = 0, photons_emitted = 0, photons_stored = 0;
+  std::uint64_t samples = 0, mutations = 0;     ///< of each pixel, on average; 0 in methods without
   std::uint64_t eye_rays = 0, photon_rays = 0;  ///< searches for the closest hit; not the pilot's
   double initial_radius_min = 0.0, initial_radius_median = 0.0,
          initial_radius_max = 0.0;  ///< world units
@@ -87,6 +88,9 @@ class Integrator {
     return passes > 0 && advance(interrupted) ? 1 : 0;
   }
 
+  /// Whether a further pass would change nothing: the method has all that it can take.
+  virtual bool complete() const { return false; }
+
   /// The picture after the passes so far.
   virtual Picture resolve() = 0;
 
@@ -98,13 +102,31 @@ class Integrator {
   virtual const Statistics& statistics() = 0;
 };
 
-/// Creates the integrator of that name ("ppm"); throws Failure on an unknown one.
+/// Creates the integrator that the settings name; throws Failure on an unknown one.
 /// `scene` and `device` must outlive it; of the scene's arrays (scene::release_arrays) only
 /// save_state and restore_state make use again.
 std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene,
                                             gpu::Device& device, Log& log, unsigned threads);
 
-/// Names that make_integrator knows.
-std::vector<std::string_view> integrator_names();
+/// What a pass of a method is.
+enum class PassUnit {
+  photons,    ///< a portion of photon paths
+  samples,    ///< one more eye path through each pixel
+  mutations,  ///< as many mutations as there are pixels
+};
+
+/// What the command line says of a method.
+struct Method {
+  std::string_view name, summary;
+  PassUnit unit;
+  std::string_view options;  ///< of those that only some methods have, separated by blanks
+
+  bool has_option(std::string_view option) const;
+};
+
+/// All that make_integrator knows.
+std::vector<Method> methods();
+/// Throws Failure on an unknown name.
+Method method_named(std::string_view name);
 
 }  // namespace ppm::render

@@ -14,12 +14,31 @@ namespace {
 constexpr std::chrono::milliseconds kRewriteInterval{100};
 constexpr std::chrono::seconds kPlainInterval{10};
 
+/// What a method does most of, and what it calls a pass.
+struct Rate {
+  const char* one;
+  const char* many;
+  double count;
+  bool of_each_pixel;
+};
+
+Rate rate_of(const Statistics& statistics) {
+  if (statistics.mutations > 0) {
+    return {"mutation", "mutations", static_cast<double>(statistics.mutations), true};
+  }
+  if (statistics.samples > 0) {
+    return {"sample", "samples", static_cast<double>(statistics.samples), true};
+  }
+  return {"pass", "photons", static_cast<double>(statistics.photons_emitted), false};
+}
+
 }  // namespace
 
-Progress::Progress(const Log& log, std::uint64_t passes)
+Progress::Progress(const Log& log, std::optional<std::uint64_t> passes, std::uint64_t pixels)
     : silent_(log.verbosity() == Verbosity::quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
-      passes_(passes) {}
+      passes_(passes),
+      pixels_(pixels) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
@@ -33,22 +52,26 @@ void Progress::passing() {
   start_ = Clock::now();
 }
 
-void Progress::passed(std::uint64_t passes_done, std::uint64_t photons) {
+void Progress::passed(const Statistics& statistics, std::optional<double> seconds_left, bool last) {
   if (silent_) return;
+  const std::uint64_t passes_done = statistics.passes;
   const Clock::time_point now = Clock::now();
-  const bool last_pass = passes_done == passes_;
-  const bool due = last_pass || now - last_ >= (terminal_ ? Clock::duration(kRewriteInterval)
-                                                          : Clock::duration(kPlainInterval));
+  const bool due = last || now - last_ >= (terminal_ ? Clock::duration(kRewriteInterval)
+                                                     : Clock::duration(kPlainInterval));
   if (!due && (terminal_ || !std::has_single_bit(passes_done))) return;
   last_ = now;
 
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double done = static_cast<double>(passes_done);
-  const double left = seconds / done * (static_cast<double>(passes_) - done);
+  double left = seconds_left.value_or(1e9);
+  if (passes_) left = std::min(left, seconds / done * (static_cast<double>(*passes_) - done));
+  const Rate rate = rate_of(statistics);
+  const double a_second = rate.count * (rate.of_each_pixel ? static_cast<double>(pixels_) : 1.0) /
+                          std::max(seconds, 1e-9);
   const std::string text =
-      fmt::format("pass {} of {}, {} photons/s, {} {}", passes_done, passes_,
-                  short_count(static_cast<double>(photons) / std::max(seconds, 1e-9)),
-                  clock_time(last_pass ? seconds : left), last_pass ? "in all" : "left");
+      fmt::format("{} {}{}, {} {}/s, {} {}", rate.one, passes_done,
+                  passes_ ? fmt::format(" of {}", *passes_) : "", short_count(a_second), rate.many,
+                  clock_time(last ? seconds : left), last ? "in all" : "left");
   if (terminal_) {
     rewrite(text);
   } else {
@@ -60,6 +83,11 @@ void Progress::rewrite(const std::string& text) {
   std::fprintf(stderr, "\rppm-vk: %s\x1b[K", text.c_str());
   std::fflush(stderr);
   line_open_ = true;
+}
+
+const char* pass_names(const Statistics& statistics) {
+  const Rate rate = rate_of(statistics);
+  return rate.of_each_pixel ? rate.many : "passes";
 }
 
 std::string short_count(double count) {

@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "integrator.hpp"
 #include "log.hpp"
 
 namespace ppm::render {
@@ -14,7 +16,8 @@ namespace ppm::render {
 /// Silent when the log is quiet.
 class Progress {
  public:
-  Progress(const Log& log, std::uint64_t passes);
+  /// `passes` there will be, if that is known.
+  Progress(const Log& log, std::optional<std::uint64_t> passes, std::uint64_t pixels);
   /// Ends the rewritten line.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -24,18 +27,22 @@ class Progress {
   void preparing();
   /// It has ended: passes are timed from here.
   void passing();
-  /// `passes_done` passes have emitted `photons` photons in all.
-  void passed(std::uint64_t passes_done, std::uint64_t photons);
+  /// What has been done so far. `seconds_left`: of the time that was given, if any was; `last`: no
+  /// pass will follow.
+  void passed(const Statistics& statistics, std::optional<double> seconds_left, bool last);
 
  private:
   using Clock = std::chrono::steady_clock;
   void rewrite(const std::string& text);
 
   bool silent_, terminal_, line_open_ = false;
-  std::uint64_t passes_;
+  std::optional<std::uint64_t> passes_;
+  std::uint64_t pixels_;
   Clock::time_point start_, last_;
 };
 
+/// "passes", "samples" or "mutations": what this method's passes are called.
+const char* pass_names(const Statistics& statistics);
 /// "1.25M", "310k", "42": three digits at most before the unit.
 std::string short_count(double count);
 /// "0:07", "12:34", "3:00:09".

@@ -43,6 +43,7 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
                                                  const Statistics& statistics) {
   const scene::Camera& camera = settings.camera;
   const auto number = [](auto value) { return static_cast<double>(value); };
+  const Method method = method_named(settings.integrator);
   std::vector<image::Attribute> attributes = {
       {"ppm-vk:program", circumstances.program},
       {"ppm-vk:device", circumstances.device},
@@ -50,11 +51,9 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
       {"ppm-vk:scene", circumstances.scene.filename().string()},
       {"ppm-vk:integrator", settings.integrator},
       {"ppm-vk:passes", number(statistics.passes)},
-      {"ppm-vk:photons", number(settings.photons_per_pass)},
+      {"ppm-vk:samples", number(statistics.samples)},
+      {"ppm-vk:mutations", number(statistics.mutations)},
       {"ppm-vk:photons_emitted", number(statistics.photons_emitted)},
-      {"ppm-vk:alpha", settings.alpha},
-      {"ppm-vk:radius", radius_text(settings)},
-      {"ppm-vk:spp", number(settings.samples_per_pixel)},
       {"ppm-vk:filter", std::string(filter_name(settings.filter))},
       {"ppm-vk:seed", number(settings.seed)},
       {"ppm-vk:max_depth", number(settings.max_depth)},
@@ -65,6 +64,15 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
       camera.ymag ? image::Attribute{"ppm-vk:camera_ymag", *camera.ymag / circumstances.frame.scale}
                   : image::Attribute{"ppm-vk:camera_fov", camera.yfov * 180.0 / std::numbers::pi},
   };
+  const auto add = [&](const char* option, image::Attribute attribute) {
+    if (method.has_option(option)) attributes.push_back(std::move(attribute));
+  };
+  add("--photons", {"ppm-vk:photons", number(settings.photons_per_pass)});
+  add("--alpha", {"ppm-vk:alpha", settings.alpha});
+  add("--radius", {"ppm-vk:radius", radius_text(settings)});
+  if (method.unit == PassUnit::photons) {
+    attributes.push_back({"ppm-vk:spp", number(settings.samples_per_pixel)});
+  }
   attributes.insert(attributes.end(), circumstances.load_attributes.begin(),
                     circumstances.load_attributes.end());
   return attributes;
@@ -89,6 +97,8 @@ std::string statistics_json(const Settings& settings, const Circumstances& circu
   json["passes"] = statistics.passes;
   json["photons_emitted"] = statistics.photons_emitted;
   json["photons_stored"] = statistics.photons_stored;
+  json["samples"] = statistics.samples;
+  json["mutations"] = statistics.mutations;
   json["alpha"] = settings.alpha;
   json["seed"] = settings.seed;
   json["initial_radius"] = {{"min", statistics.initial_radius_min},

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "failure.hpp"
 #include "progress.hpp"
@@ -77,7 +79,7 @@ class Driver : public ::testing::Test {
 
   Outcome run(Counter& counter, std::uint64_t passes) {
     const Interruption interruption;
-    return drive(counter, settings_, {passes}, outputs_, circumstances_, interruption, log_);
+    return drive(counter, settings_, {passes, {}}, outputs_, circumstances_, interruption, log_);
   }
 
   float red(const char* name) { return test::read_picture(folder_ / name).values.at(0); }
@@ -98,6 +100,64 @@ TEST_F(Driver, SpendsTheBudgetAndWritesEverything) {
   EXPECT_EQ(red("p.exr"), 5.0f);
   EXPECT_EQ(folder_.names(), (Names{"p.exr", "p.png", "s.json"}));
   EXPECT_TRUE(log_.warnings().empty());
+}
+
+/// A pass takes some 10 ms; after `most` there is nothing left to do.
+class Sleeper : public Counter {
+ public:
+  explicit Sleeper(const Settings& settings, std::uint64_t most = 1000)
+      : Counter(settings), most_(most) {}
+  bool advance(const std::function<bool()>& interrupted) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    counted.samples = counted.passes + 1;
+    return Counter::advance(interrupted);
+  }
+  bool complete() const override { return counted.passes >= most_; }
+
+ private:
+  std::uint64_t most_;
+};
+
+TEST_F(Driver, TimeEndsWithThePassInHand) {
+  const Interruption interruption;
+  for (const double seconds : {1e-6, 0.1}) {
+    Sleeper sleeper(settings_);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(
+        drive(sleeper, settings_, {{}, seconds}, outputs_, circumstances_, interruption, log_),
+        Outcome::complete);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    EXPECT_GE(taken.count(), seconds);
+    EXPECT_LE(sleeper.counted.passes, seconds < 0.1 ? 1u : 10u);
+    EXPECT_GE(sleeper.counted.passes, 1u);
+    EXPECT_EQ(statistics()["samples"], sleeper.counted.samples);
+    EXPECT_EQ(statistics()["mutations"], 0);
+  }
+}
+
+TEST_F(Driver, PassesMayEndBeforeTheTime) {
+  const Interruption interruption;
+  Sleeper sleeper(settings_);
+  drive(sleeper, settings_, {3, 60.0}, outputs_, circumstances_, interruption, log_);
+  EXPECT_EQ(sleeper.counted.passes, 3u);
+}
+
+TEST_F(Driver, StopsWhenTheMethodIsComplete) {
+  Sleeper sleeper(settings_, 4);
+  EXPECT_EQ(run(sleeper, 100), Outcome::complete);
+  EXPECT_EQ(sleeper.counted.passes, 4u);
+  EXPECT_TRUE(log_.warnings().empty());
+}
+
+TEST_F(Driver, ProgressOfSamplesSaysSo) {
+  Log log(Verbosity::normal);
+  const Interruption interruption;
+  Sleeper sleeper(settings_);
+  testing::internal::CaptureStderr();
+  drive(sleeper, settings_, {2, {}}, outputs_, circumstances_, interruption, log);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("sample 1 of 2, "), std::string::npos) << text;
+  EXPECT_NE(text.find(" samples/s, 0:00 in all"), std::string::npos) << text;
 }
 
 TEST_F(Driver, StatisticsHaveAllTheirKeys) {
@@ -244,7 +304,7 @@ TEST_F(Driver, ProgressIsPlainLinesAtPowersOfTwoAndTheEnd) {
   const Interruption interruption;
   Counter counter(settings_);
   testing::internal::CaptureStderr();
-  drive(counter, settings_, {11}, outputs_, circumstances_, interruption, log);
+  drive(counter, settings_, {11, {}}, outputs_, circumstances_, interruption, log);
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5) << text;
   for (const char* pass :

@@ -61,7 +61,8 @@ TEST(Options, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(options.scene, "s.glb");
   EXPECT_EQ(options.outputs, std::vector<std::filesystem::path>{"o.exr"});
   EXPECT_FALSE(options.width || options.height);
-  EXPECT_EQ(options.passes, 64u);
+  EXPECT_EQ(options.passes_or_usual(), 64u);
+  EXPECT_FALSE(options.passes || options.seconds);
   EXPECT_EQ(options.exposure, 0.0);
   EXPECT_TRUE(options.camera.empty() && options.stats.empty() && options.device.selector.empty());
   EXPECT_FALSE(options.camera_position || options.camera_target || options.camera_up);
@@ -90,6 +91,8 @@ TEST(Options, EveryOptionArrives) {
                                           "1",
                                           "--passes",
                                           "7",
+                                          "--time",
+                                          "1.5m",
                                           "--photons",
                                           "12",
                                           "--alpha",
@@ -143,6 +146,7 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(options.width, 32768u);
   EXPECT_EQ(options.height, 1u);
   EXPECT_EQ(options.passes, 7u);
+  EXPECT_EQ(options.seconds, 90.0);
   EXPECT_EQ(options.camera, "east");
   EXPECT_EQ(options.camera_position, glm::dvec3(1.0, -2.0, 30.0));
   EXPECT_EQ(options.camera_target, glm::dvec3(-0.5, 0.0, 0.0));
@@ -208,7 +212,8 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("--dispatch-ms", {"0", "-5", "nan", "inf"});
   expect_value_refused("--exposure", {"nan", "inf", "101", "-101"});
   expect_value_refused("--threads", {"-1", "4097", "all"});
-  expect_value_refused("--integrator", {"pt", "PPM", ""});
+  expect_value_refused("--integrator", {"magic", "PPM", ""});
+  expect_value_refused("--time", {"0", "-1", "", "s", "10 s", "nan", "inf", "3d", "1e9"});
   expect_value_refused("-o", {"o.jpg", "o", "", ".exr", "exr"});
   expect_value_refused("--stats", {"", "s.glb", "o.exr", "./o.exr"});
   expect_value_refused("--tile-hits", {"0", "-1"});
@@ -263,12 +268,31 @@ TEST(Options, HelpAndVersionGoToStandardOutput) {
 
 TEST(Options, HelpNamesEveryOption) {
   const std::string help = parse_line({"help", "render"}).out;
-  for (const char* option : {"--integrator",      "--width",         "--height",    "--passes",
-                             "--photons",         "--alpha",         "--radius",    "--spp",
-                             "--filter",          "--seed",          "--max-depth", "--camera",
-                             "--camera-position", "--camera-target", "--camera-up", "--camera-fov",
-                             "--device",          "--dispatch-ms",   "--exposure",  "--stats",
-                             "--quiet",           "--verbose",       "--threads",   "-o"}) {
+  for (const char* option : {"--integrator",
+                             "--width",
+                             "--height",
+                             "--passes",
+                             "--time",
+                             "--photons",
+                             "--alpha",
+                             "--radius",
+                             "--spp",
+                             "--filter",
+                             "--seed",
+                             "--max-depth",
+                             "--camera",
+                             "--camera-position",
+                             "--camera-target",
+                             "--camera-up",
+                             "--camera-fov",
+                             "--device",
+                             "--dispatch-ms",
+                             "--exposure",
+                             "--stats",
+                             "--quiet",
+                             "--verbose",
+                             "--threads",
+                             "-o"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(help.find("(default 100000)"), std::string::npos);
