@@ -52,11 +52,12 @@ shared::MaterialRecord material_record(const scene::Material& material) {
 }
 
 shared::TrianglePositions position_record(const scene::Scene& scene,
-                                          const scene::Triangle& triangle) {
+                                          const scene::Triangle& triangle,
+                                          float light_probability) {
   const bool is_opaque = scene.materials[triangle.material].alpha_mode == scene::AlphaMode::opaque;
   const auto& corners = triangle.corners;
   return {corners[0].position, triangle.material | (is_opaque ? 0u : PPM_HAS_COVERAGE),
-          corners[1].position, 0,
+          corners[1].position, light_probability,
           corners[2].position, 0};
 }
 
@@ -98,6 +99,15 @@ shared::SceneConstants camera_constants(const Settings& settings) {
   constants.photon_bounce_cap = kPhotonBounceCap;
   constants.eye_bounce_cap = kEyeBounceCap;
   return constants;
+}
+
+/// By leaf slot, with which each triangle is chosen as a light; 0 for those that are none.
+std::vector<float> light_probabilities(const LightTable& lights, std::size_t triangles) {
+  std::vector<float> result(triangles, 0.0f);
+  for (const shared::LightRecord& light : lights.records) {
+    if (light.kind == PPM_LIGHT_TRIANGLE) result[light.triangle] = light.probability;
+  }
+  return result;
 }
 
 template <class Record>
@@ -162,7 +172,8 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
   lights_ = upload_records(device, "lights", lights.records, segment_);
   nodes_ = upload_records(device, "BVH nodes", bvh.nodes, segment_);
   bvh.nodes = {};
-  upload_triangles(scene, bvh.triangle_order, device, threads);
+  upload_triangles(scene, bvh.triangle_order,
+                   light_probabilities(lights, bvh.triangle_order.size()), device, threads);
   upload_textures(scene, device);
   environment_ = texel_buffer(device, "environment", environment.texels);
   media_ = texel_buffer(device, "media", media.records);
@@ -173,10 +184,12 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
 }
 
 void SceneBuffers::upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
-                                    gpu::Device& device, unsigned threads) {
+                                    std::span<const float> light_probabilities, gpu::Device& device,
+                                    unsigned threads) {
   positions_ = upload_records<shared::TrianglePositions>(
-      device, "triangle positions", order.size(), threads, segment_,
-      [&](std::size_t slot) { return position_record(scene, scene.triangles[order[slot]]); });
+      device, "triangle positions", order.size(), threads, segment_, [&](std::size_t slot) {
+        return position_record(scene, scene.triangles[order[slot]], light_probabilities[slot]);
+      });
   shading_ = upload_records<shared::TriangleShading>(
       device, "triangle shading", order.size(), threads, segment_,
       [&](std::size_t slot) { return shading_record(scene.triangles[order[slot]]); });

@@ -36,7 +36,8 @@ class SceneBuffers {
 
  private:
   void upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,
-                        gpu::Device& device, unsigned threads);
+                        std::span<const float> light_probabilities, gpu::Device& device,
+                        unsigned threads);
   void upload_textures(const scene::Scene& scene, gpu::Device& device);
   /// Fills `light_media_`. `traits`: as the scene alone has them.
   void find_start_media(gpu::Device& device, SceneTraits traits);

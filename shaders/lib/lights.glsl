@@ -44,6 +44,14 @@ uint choose_light(uint bin_word, uint alias_word) {
   return alias_word < d.z ? bin : d.w;
 }
 
+// The probability with which choose_light chooses what a path has met: a triangle, or the environment.
+float light_probability_of(uint triangle) {
+  return uintBitsToFloat(PPM_FETCH_SEGMENTED(triangle_positions, 3u * triangle + 1u).w);
+}
+float environment_probability() {  // of the last light
+  return uintBitsToFloat(PPM_FETCH_SEGMENTED(lights, PPM_LIGHT_TEXELS * (scene.light_count - 1u) + 1u).w);
+}
+
 #ifndef PPM_FINDS_START_MEDIA  // the kernel that writes them
 PPM_TEXELS(PPM_BIND_LIGHT_MEDIA, light_media);
 

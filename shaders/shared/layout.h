@@ -31,14 +31,14 @@ struct BvhNode {
 // ---- Scene
 // ----------------------------------------------------------------------------------------------
 
-// Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, spare),
-// (corner2, spare).
+// Corners in the working frame, in leaf order. Texels: (corner0, material), (corner1, light
+// probability), (corner2, spare).
 #define PPM_HAS_COVERAGE 0x80000000u
 struct TrianglePositions {
   vec3 corner0;
   uint material;  // PPM_HAS_COVERAGE: its alphaMode is not OPAQUE
   vec3 corner1;
-  uint spare1;
+  float light_probability;  // LightRecord::probability; 0 if it is no light
   vec3 corner2;
   uint spare2;
 };  // 48

@@ -11,7 +11,7 @@
 
 #define PPM_FIELDS_BVH_NODE(r) U4(r.box_x) U4(r.box_y) U4(r.box_z) U4(r.children)
 #define PPM_FIELDS_TRIANGLE_POSITIONS(r) \
-  F3(r.corner0) U1(r.material) F3(r.corner1) U1(r.spare1) F3(r.corner2) U1(r.spare2)
+  F3(r.corner0) U1(r.material) F3(r.corner1) F1(r.light_probability) F3(r.corner2) U1(r.spare2)
 #define PPM_FIELDS_TRIANGLE_SHADING(r) \
   U1(r.normal0) U1(r.normal1) U1(r.normal2) U1(r.material) F2(r.texcoord0) F2(r.texcoord1) \
   F2(r.texcoord2) U2(r.color0) U2(r.color1) U2(r.color2)
