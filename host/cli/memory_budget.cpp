@@ -19,6 +19,9 @@ std::string remedy_for(const render::MemoryPlan& plan) {
   if (largest.starts_with("hit points") || largest == "picture") {
     return "make the picture smaller or lower --spp";
   }
+  if (largest == "film") {
+    return "make the picture smaller";
+  }
   if (largest == "photons") return "lower --photons";
   return "simplify meshes or use fewer instances";
 }

@@ -239,7 +239,8 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
                [&] { options.device.validation = true; });
   declare.whole<std::uint64_t>(
       "--tile-hits", options.settings.tile_hits, 1, kMany,
-      fmt::format("hit points a tile holds at most (default {})", options.settings.tile_hits));
+      fmt::format("hit points, or paths, a tile holds at most (default {})",
+                  options.settings.tile_hits));
   declare.text("--segment-bytes", "N",
                "bytes of a segment of the scene's buffers at most (default 134217728)",
                [&](const std::string& value) {

@@ -46,7 +46,8 @@ bool advance_all(Integrator& integrator, const Settings& settings, const Budget&
       seconds_left = start + *budget.seconds - now;
       if (*seconds_left <= 0.0 && passes > 0) return true;
       // As many as are likely to end in time; a pass that was begun is finished.
-      const double pass_seconds = (now - prepared) / std::max<double>(1.0, passes);
+      const double pass_seconds =
+          (now - prepared) / static_cast<double>(std::max<std::uint64_t>(passes, 1));
       const double in_time = passes > 0 ? *seconds_left / pass_seconds : 1.0;
       at_a_time = std::min(at_a_time, static_cast<std::uint64_t>(std::clamp(in_time, 1.0, 1e9)));
     }

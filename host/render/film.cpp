@@ -53,6 +53,28 @@ void Film::clear() {
   });
 }
 
+void Film::keep() {
+  if (!kept_[0]) {
+    kept_ = {plane(device_, "kept film, red", pixels()),
+             plane(device_, "kept film, green", pixels()),
+             plane(device_, "kept film, blue", pixels())};
+  }
+  device_.run([&](gpu::Recorder& recorder) {
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      recorder.copy(planes_[i], kept_[i], planes_[i].bytes());
+    }
+  });
+}
+
+void Film::revert() {
+  PPM_ASSERT(kept_[0], "nothing was kept");
+  device_.run([&](gpu::Recorder& recorder) {
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      recorder.copy(kept_[i], planes_[i], planes_[i].bytes());
+    }
+  });
+}
+
 Picture Film::resolve(double samples) const {
   PPM_ASSERT(samples > 0.0, "a picture of no samples");
   Picture picture{constants_.width, constants_.height, std::vector<float>(3 * pixels())};

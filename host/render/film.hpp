@@ -22,6 +22,10 @@ class Film {
   void bind(gpu::BindingTable& table) const;
   void clear();
 
+  /// Remembers what there is now, and goes back to it: for a pass that may have to be discarded.
+  void keep();
+  void revert();
+
   /// What has been added, divided by `samples` (positive): radiance.
   Picture resolve(double samples) const;
 
@@ -30,8 +34,8 @@ class Film {
   /// False, and nothing is changed, unless there are as many words as `save` gives.
   bool restore(std::span<const std::uint32_t> words);
 
-  /// What a film of so many pixels takes on the device.
-  static std::uint64_t bytes(std::uint64_t pixels) { return 3 * sizeof(shared::FilmSum) * pixels; }
+  /// What a film of so many pixels takes on the device, with what it keeps.
+  static std::uint64_t bytes(std::uint64_t pixels) { return 6 * sizeof(shared::FilmSum) * pixels; }
 
  private:
   std::uint64_t pixels() const { return std::uint64_t{constants_.width} * constants_.height; }
@@ -39,7 +43,7 @@ class Film {
   gpu::Device& device_;
   shared::FilmConstants constants_;
   gpu::Buffer constants_buffer_;
-  std::array<gpu::Buffer, 3> planes_;
+  std::array<gpu::Buffer, 3> planes_, kept_;
 };
 
 }  // namespace ppm::render

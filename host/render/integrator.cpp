@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "failure.hpp"
+#include "memory_plan.hpp"
+#include "path_tracer.hpp"
 #include "ppm.hpp"
 
 namespace ppm::render {
@@ -20,11 +22,19 @@ std::unique_ptr<Integrator> create(const Settings& settings, const scene::Scene&
 struct Entry {
   Method method;
   Factory make;
+  std::vector<MemoryPart> (*memory)(const Settings&, const PassLimits&);
 };
 
 constexpr Entry kIntegrators[] = {
     {{"ppm", "progressive photon mapping", PassUnit::photons, "--photons --alpha --radius"},
-     create<PpmIntegrator>},
+     create<PpmIntegrator>,
+     ppm_memory},
+    {{"pt", "path tracing, one light sampled at each surface", PassUnit::samples, ""},
+     create<PathTracer>,
+     path_tracer_memory},
+    {{"pt-mis", "the same, with multiple importance sampling", PassUnit::samples, ""},
+     create<PathTracer>,
+     path_tracer_memory},
 };
 
 const Entry& entry_named(std::string_view name) {
@@ -59,6 +69,10 @@ std::vector<Method> methods() {
 
 Method method_named(std::string_view name) {
   return entry_named(name).method;
+}
+
+std::vector<MemoryPart> method_memory(const Settings& settings, const PassLimits& limits) {
+  return entry_named(settings.integrator).memory(settings, limits);
 }
 
 }  // namespace ppm::render

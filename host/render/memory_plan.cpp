@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "binary_tree.hpp"
+#include "film.hpp"
 #include "shared/layout.h"
 
 namespace ppm::render {
@@ -73,6 +74,28 @@ std::uint64_t MemoryPlan::device_peak() const {
   return most_held(*this, [](const MemoryPart& part) { return part.on_device; });
 }
 
+std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& limits) {
+  const std::uint64_t paths =
+      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
+  const std::uint64_t hits = share(kHitsAPath, paths);
+  const PassCapacities capacities = pass_capacities(settings, limits);
+  const std::uint64_t photons = capacities.photons * kPhotonBytes +
+                                capacities.paths * 2 * sizeof(shared::PhotonPath) +
+                                capacities.grid_entries * 2 * sizeof(std::uint32_t);
+  return {
+      {"hit points", hits * kHitBytes + std::min(hits, settings.tile_hits) * kTileHitBytes, true,
+       Phase::render, Phase::render},
+      {"photons", photons, true, Phase::upload, Phase::render},
+  };
+}
+
+std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassLimits& limits) {
+  const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+  const std::uint64_t paths = pass_capacities(settings, limits).camera_paths;
+  return {{"paths", paths * 2 * sizeof(shared::CameraPath), true, Phase::upload, Phase::render},
+          {"film", Film::bytes(pixels), true, Phase::upload, Phase::render}};
+}
+
 MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
                        const PassLimits& limits) {
   const std::uint64_t n = size.triangles, details = size.details ? n : 0;
@@ -81,14 +104,7 @@ MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
   const std::uint64_t records =
       n * (sizeof(shared::TrianglePositions) + sizeof(shared::TriangleShading)) +
       details * sizeof(shared::TriangleDetail) + nodes;
-  const std::uint64_t paths =
-      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
-  const std::uint64_t hits = share(kHitsAPath, paths);
-  const PassCapacities capacities = pass_capacities(settings, limits);
-  const std::uint64_t photons = capacities.photons * kPhotonBytes +
-                                capacities.paths * 2 * sizeof(shared::PhotonPath) +
-                                capacities.grid_entries * 2 * sizeof(std::uint32_t);
-  return {{
+  MemoryPlan plan{{
       // A container is held twice while it is taken apart.
       {"file", 2 * size.file_bytes + size.decoded_bytes, false, Phase::load, Phase::load},
       {"triangles", n * sizeof(scene::Triangle) + details * sizeof(scene::TriangleDetail), false,
@@ -97,13 +113,12 @@ MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
       {"tree while it is built", tree + nodes, false, Phase::build, Phase::build},
       {"tree and triangles on the device", records, true, Phase::upload, Phase::render},
       {"textures on the device", size.texture_bytes, true, Phase::upload, Phase::render},
-      {"hit points", hits * kHitBytes + std::min(hits, settings.tile_hits) * kTileHitBytes, true,
-       Phase::render, Phase::render},
-      {"photons", photons, true, Phase::upload, Phase::render},
       {"picture", std::uint64_t{settings.width} * settings.height * 2 * 3 * sizeof(float), false,
        Phase::render, Phase::render},
       {"program and driver", kProgram, false, Phase::load, Phase::render},
   }};
+  for (MemoryPart& part : method_memory(settings, limits)) plan.parts.push_back(std::move(part));
+  return plan;
 }
 
 const MemoryPart& largest_part(const MemoryPlan& plan) {

@@ -31,6 +31,11 @@ struct MemoryPlan {
   std::uint64_t device_peak() const;
 };
 
+/// What the settings' method needs beside the scene: in the table of methods (integrator.cpp).
+std::vector<MemoryPart> method_memory(const Settings& settings, const PassLimits& limits);
+std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& limits);
+std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassLimits& limits);
+
 /// An estimate: counts and sizes of records are exact, what rays will find is not (1.25 hit points
 /// are reckoned with for each eye path, 0.4 nodes for each triangle).
 MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,

@@ -43,7 +43,14 @@ PassCapacities pass_capacities(const Settings& settings, const PassLimits& limit
                          kFewestPhotons}));
   capacities.grid_entries = std::max(profile.grid_entries, asked * kGridEntriesAPass);
 
+  // A picture is traced in parts of so many paths, a small one several times at once.
+  const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+  capacities.camera_paths =
+      std::min({profile.paths, settings.tile_hits, pixels * PPM_PATH_MOST_PASSES});
+
   const std::uint64_t bytes = limits.storage_bytes;
+  capacities.camera_paths =
+      std::min<std::uint64_t>(capacities.camera_paths, bytes / sizeof(shared::CameraPath));
   capacities.paths = std::min(capacities.paths, bytes / sizeof(shared::PhotonPath));
   capacities.photons = std::min(capacities.photons, bytes / 16);
   capacities.grid_entries = std::min(capacities.grid_entries, bytes / 4 - 1);

@@ -10,6 +10,7 @@ namespace ppm::render {
 struct PassCapacities {
   std::uint32_t passes;  ///< recorded at a time, 1 to PPM_BATCH_LIMIT
   std::uint64_t paths, photons, grid_entries;
+  std::uint64_t camera_paths;  ///< whose state is kept at a time, of methods that trace them
 };
 
 /// What of a device decides them.

@@ -75,10 +75,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
   if (settings.photons_per_pass > 0xffffffffu) {
     throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
   }
-  if (buffers_.light_count() == 0) {
-    throw Failure(scene.file, "", "nothing in the scene gives off light",
-                  "add a light or an emissive material to it, or give --env FILE.hdr");
-  }
+  require_light(buffers_, scene);
 }
 
 bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {

@@ -1,8 +1,8 @@
 // Saving and restoring a rendering between two passes.
 #include <cstring>
-#include <type_traits>
 
 #include "failure.hpp"
+#include "fingerprint.hpp"
 #include "ppm.hpp"
 
 namespace ppm::render {
@@ -16,88 +16,9 @@ struct Header {
   std::uint64_t hit_points;
 };
 
-class Hash {  // FNV-1a, 64 bits
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3ull;
-  }
-  template <class T>
-  void add(const T& value) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
-    add(&value, sizeof value);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ull;
-};
-
 void append(SavedState& state, const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   state.insert(state.end(), bytes, bytes + size);
-}
-
-void add(Hash& hash, const scene::OptionalTextureUse& use) {
-  hash.add(use.has_value());
-  if (!use) return;
-  hash.add(use->texture);
-  hash.add(use->texcoord_set);
-  hash.add(&use->row_s, sizeof use->row_s);
-  hash.add(&use->row_t, sizeof use->row_t);
-}
-
-void add(Hash& hash, const scene::Material& material) {
-  hash.add(&material.base_color, sizeof material.base_color);
-  for (const scene::OptionalTextureUse* use :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
-        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
-        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
-    add(hash, *use);
-  }
-  hash.add(material.normal_scale);
-  hash.add(material.clearcoat_normal_scale);
-  hash.add(static_cast<std::uint32_t>(material.alpha_mode));
-  hash.add(material.alpha);
-  hash.add(material.alpha_cutoff);
-  hash.add(material.dispersion);
-  hash.add(material.clearcoat);
-  hash.add(material.clearcoat_roughness);
-  hash.add(material.unlit);
-  hash.add(material.priority);
-  hash.add(material.metallic);
-  hash.add(material.roughness);
-  hash.add(material.specular);
-  hash.add(&material.specular_color, sizeof material.specular_color);
-  hash.add(material.ior);
-  hash.add(material.transmission);
-  hash.add(material.solid);
-  hash.add(&material.attenuation_color, sizeof material.attenuation_color);
-  hash.add(material.attenuation_distance);
-  hash.add(&material.emission, sizeof material.emission);
-  hash.add(material.double_sided);
-}
-
-void add(Hash& hash, const scene::Texture& texture) {
-  hash.add(texture.width);
-  hash.add(texture.height);
-  hash.add(static_cast<std::uint32_t>(texture.wrap_s));
-  hash.add(static_cast<std::uint32_t>(texture.wrap_t));
-  hash.add(texture.nearest);
-  hash.add(texture.srgb);
-  hash.add(texture.rgba8.data(), texture.rgba8.size() * sizeof texture.rgba8[0]);
-  hash.add(texture.halves.data(), texture.halves.size() * sizeof texture.halves[0]);
-}
-
-void add(Hash& hash, const scene::PunctualLight& light) {
-  hash.add(static_cast<std::uint32_t>(light.kind));
-  hash.add(&light.position, sizeof light.position);
-  hash.add(&light.direction, sizeof light.direction);
-  hash.add(&light.intensity, sizeof light.intensity);
-  hash.add(light.inner_cone_angle);
-  hash.add(light.outer_cone_angle);
-  hash.add(light.range);
 }
 
 [[noreturn]] void refuse(const char* why) {
@@ -118,18 +39,7 @@ std::uint64_t PpmIntegrator::fingerprint() const {
   hash.add(static_cast<std::uint32_t>(settings_.filter));
   hash.add(&buffers_.constants(),
            sizeof(shared::SceneConstants));  // camera, seed, depth, lights' power
-  PPM_ASSERT(!scene_.triangles.empty(), "the scene's arrays were released");
-  for (const scene::Triangle& triangle : scene_.triangles) {
-    for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
-    hash.add(triangle.material);
-  }
-  for (const scene::TriangleDetail& detail : scene_.details) hash.add(&detail, sizeof detail);
-  for (const scene::Material& material : scene_.materials) add(hash, material);
-  for (const scene::Texture& texture : scene_.textures) add(hash, texture);
-  for (const scene::PunctualLight& light : scene_.punctual_lights) add(hash, light);
-  if (scene_.environment) {
-    for (const glm::vec3& texel : scene_.environment->texels) hash.add(&texel, sizeof texel);
-  }
+  add_scene(hash, scene_);
   return hash.value();
 }
 

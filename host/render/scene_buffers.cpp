@@ -198,6 +198,12 @@ void SceneBuffers::upload_triangles(const scene::Scene& scene, std::span<const s
       [&](std::size_t slot) { return detail_record(scene.details[order[slot]]); });
 }
 
+void require_light(const SceneBuffers& buffers, const scene::Scene& scene) {
+  if (buffers.light_count() > 0) return;
+  throw Failure(scene.file, "", "nothing in the scene gives off light",
+                "add a light or an emissive material to it, or give --env FILE.hdr");
+}
+
 void SceneBuffers::upload_textures(const scene::Scene& scene, gpu::Device& device) {
   const std::vector<shared::TextureRecord> records = make_texture_records(scene);
   textures_ = texel_buffer(device, "textures", records);

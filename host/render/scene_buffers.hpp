@@ -51,4 +51,7 @@ class SceneBuffers {
   gpu::SegmentedBuffer nodes_, positions_, shading_, details_, texels_, lights_;
 };
 
+/// Throws Failure where nothing gives off light.
+void require_light(const SceneBuffers& buffers, const scene::Scene& scene);
+
 }  // namespace ppm::render

@@ -78,15 +78,29 @@ PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) 
   return result;
 }
 
-// Van der Corput's sequence in base 2.
-PPM_FN float radical_inverse(uint index) {
-  uint bits = index;
+PPM_FN uint reversed_bits(uint bits) {
   bits = (bits << 16u) | (bits >> 16u);
   bits = ((bits & 0x00ff00ffu) << 8u) | ((bits & 0xff00ff00u) >> 8u);
   bits = ((bits & 0x0f0f0f0fu) << 4u) | ((bits & 0xf0f0f0f0u) >> 4u);
   bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xccccccccu) >> 2u);
-  bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xaaaaaaaau) >> 1u);
-  return unit_from_word(bits);
+  return ((bits & 0x55555555u) << 1u) | ((bits & 0xaaaaaaaau) >> 1u);
+}
+
+// Van der Corput's sequence in base 2.
+PPM_FN float radical_inverse(uint index) {
+  return unit_from_word(reversed_bits(index));
+}
+
+// The second dimension of Sobol's sequence, which is a (0,2)-sequence with the reversed bits: each
+// aligned 2^k points have one in every elementary interval of area 2^-k.
+PPM_FN uint second_sobol_word(uint index) {
+  uint word = 0u;
+  uint direction = 0x80000000u;
+  for (uint rest = index; rest != 0u; rest >>= 1u) {
+    if ((rest & 1u) != 0u) word ^= direction;
+    direction ^= direction >> 1u;
+  }
+  return word;
 }
 
 // The film position of one of a pixel's `samples` eye paths, drawn from the filter, stratified by a
@@ -107,6 +121,17 @@ PPM_FN vec2 film_sample(uint filter_kind, uint x, uint y, uint sample_index, uin
   // Rounding must not reach 1.
   a = min(a, 0.99999994f);
   b = min(b, 0.99999994f);
+  return vec2(float(x) + 0.5f + sample_filter(filter_kind, a),
+              float(y) + 0.5f + sample_filter(filter_kind, b));
+}
+
+// The same where nobody knows how many eye paths there will be: point number `sample_index` of a
+// sequence whose every beginning covers the pixel evenly. `shift`: random words of the pixel, which
+// keep the intervals that hold one point each.
+PPM_FN vec2 film_sample_in_sequence(uint filter_kind, uint x, uint y, uint sample_index,
+                                    uvec2 shift) {
+  float a = unit_from_word(reversed_bits(sample_index) ^ shift.x);
+  float b = unit_from_word(second_sobol_word(sample_index) ^ shift.y);
   return vec2(float(x) + 0.5f + sample_filter(filter_kind, a),
               float(y) + 0.5f + sample_filter(filter_kind, b));
 }

@@ -277,6 +277,38 @@ struct PhotonPush {
 #define PPM_BOUNCES_OF_MANY 1u
 #define PPM_BOUNCES_OF_FEW 4u
 
+// ---- Path tracing
+// ------------------------------------------------------------------------------------------
+
+// A path from the camera between two events.
+struct CameraPath {
+  vec3 origin;
+  uint pixel;             // row by row from the top left
+  vec3 direction;         // unit, the way it travels
+  uint state;             // PPM_PATH_*
+  vec3 weight;            // of radiance that arrives here, in the pixel
+  uint skip;              // triangle slot it starts on, PPM_NO_TRIANGLE for none
+  vec3 radiance;          // found so far
+  uint media;             // as in PhotonPath
+  float pdf_solid_angle;  // with which the last event drew the direction; 0: camera or specular
+  float distance;         // since the last event, working units
+};                        // 72
+
+#define PPM_PATH_EVENTS 0xffffu          // bits of state: scattering events so far
+#define PPM_PATH_ONLY_SPECULAR 0x10000u  // all of them were specular
+#define PPM_PATH_PASS_SHIFT 24u          // bits 24 to 31: pass of the batch
+#define PPM_PATH_MOST_PASSES 256u        // of a batch
+
+struct PathPush {
+  uint first, count;
+  uint pass;        // number of the batch's first pass, RNG counter
+  uint path_first;  // paths of the batch that are made elsewhere: before these, pass by pass
+  uint generate;    // 1: items are new paths; 0: items are PATHS_IN
+  uint path_capacity;
+  uint round;        // index into BatchWords::alive
+  uint filter_kind;  // PPM_FILTER_*
+};
+
 // ---- Photon grid
 // ------------------------------------------------------------------------------------------
 
@@ -457,6 +489,7 @@ static_assert(sizeof(TextureRecord) == 16);
 static_assert(sizeof(LightRecord) == 16 * PPM_LIGHT_TEXELS);
 static_assert(sizeof(SceneConstants) == 148);
 static_assert(sizeof(PhotonPath) == 52);
+static_assert(sizeof(CameraPath) == 72);
 static_assert(sizeof(BatchWords) == 4 * (4 + PPM_TRACE_ROUNDS + 1 + 2 * PPM_BATCH_LIMIT));
 static_assert(sizeof(GridConstants) == 36);
 static_assert(sizeof(EyePath) == 68);

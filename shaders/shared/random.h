@@ -15,6 +15,7 @@ PPM_NAMESPACE_BEGIN
 #define PPM_STREAM_EYE 1u
 #define PPM_STREAM_PHOTON 2u
 #define PPM_STREAM_PILOT 3u
+#define PPM_STREAM_PATH 4u
 
 PPM_FN uvec4 philox_4x32_10(uvec4 counter, uvec2 key) {
   for (int round_index = 0; round_index < 10; ++round_index) {

@@ -110,6 +110,11 @@ TEST_F(FilmOnDevice, SumsAreExactInAnyOrder) {
   ASSERT_TRUE(another.restore(film.save()));
   EXPECT_EQ(another.save(), words);
   EXPECT_FALSE(another.restore(std::span(words).first(5)));
+  another.keep();
+  add(another, splats);
+  EXPECT_NE(another.save(), words);
+  another.revert();
+  EXPECT_EQ(another.save(), words);
   another.clear();
   std::ranges::reverse(splats);
   add(another, splats);

@@ -43,6 +43,12 @@
 #define PPM_FIELDS_PHOTON_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.pass) U1(r.paths) U1(r.passes) U1(r.emit_first) U1(r.generate) \
   U1(r.photon_share) U1(r.path_capacity) U1(r.stream) U1(r.round)
+#define PPM_FIELDS_CAMERA_PATH(r) \
+  F3(r.origin) U1(r.pixel) F3(r.direction) U1(r.state) F3(r.weight) U1(r.skip) F3(r.radiance) \
+  U1(r.media) F1(r.pdf_solid_angle) F1(r.distance)
+#define PPM_FIELDS_PATH_PUSH(r) \
+  U1(r.first) U1(r.count) U1(r.pass) U1(r.path_first) U1(r.generate) U1(r.path_capacity) \
+  U1(r.round) U1(r.filter_kind)
 #define PPM_FIELDS_BATCH_CHECK_PUSH(r) \
   U1(r.first) U1(r.count) U1(r.step) U1(r.pass) U1(r.passes) U1(r.photon_share) U1(r.rounds)
 #define PPM_FIELDS_BATCH_WORDS(r) \
@@ -92,6 +98,8 @@
   RECORD(SceneConstants, scene_constants, PPM_FIELDS_SCENE_CONSTANTS) \
   RECORD(PhotonPath, photon_path, PPM_FIELDS_PHOTON_PATH) \
   RECORD(PhotonPush, photon_push, PPM_FIELDS_PHOTON_PUSH) \
+  RECORD(CameraPath, camera_path, PPM_FIELDS_CAMERA_PATH) \
+  RECORD(PathPush, path_push, PPM_FIELDS_PATH_PUSH) \
   RECORD(BatchCheckPush, batch_check_push, PPM_FIELDS_BATCH_CHECK_PUSH) \
   RECORD(BatchWords, batch_words, PPM_FIELDS_BATCH_WORDS) \
   RECORD(GridConstants, grid_constants, PPM_FIELDS_GRID_CONSTANTS) \
