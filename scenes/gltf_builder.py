@@ -10,10 +10,12 @@ import struct
 
 
 class Mesh:
-    """Triangles by index; `normals` is empty (flat shading) or holds one unit vector per position."""
+    """Triangles by index; `normals` is empty (flat shading) or holds one unit vector per position, `coordinates`
+    (of textures; v downwards) likewise."""
 
-    def __init__(self, positions, triangles, normals=()):
-        self.positions, self.triangles, self.normals = positions, triangles, normals
+    def __init__(self, positions, triangles, normals=(), coordinates=()):
+        self.positions, self.triangles = positions, triangles
+        self.normals, self.coordinates = normals, coordinates
 
 
 def normalized(v):
@@ -23,6 +25,25 @@ def normalized(v):
 
 def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _check_solid(name, mesh):
+    """Glass must be closed, with its front outside: every edge is passed once in each direction, and the volume that
+    the triangles enclose is positive."""
+    edges = set()
+    volume = 0.0
+    for triangle in mesh.triangles:
+        a, b, c = (tuple(mesh.positions[k]) for k in triangle)
+        edges |= {(a, b), (b, c), (c, a)}
+        volume += sum(x * y for x, y in zip(a, cross(b, c)))
+    if len(edges) != 3 * len(mesh.triangles) or any((b, a) not in edges for a, b in edges) or volume <= 0:
+        raise ValueError(f"{name}: no closed solid with its front outside")
+
+
+def _box(positions):
+    """The centre of their bounding box and half its longest edge."""
+    least, most = [min(axis) for axis in zip(*positions)], [max(axis) for axis in zip(*positions)]
+    return tuple((a + b) / 2 for a, b in zip(least, most)), max(b - a for a, b in zip(least, most)) / 2
 
 
 def quad(corner, edge_u, edge_v):
@@ -118,16 +139,21 @@ def light(color, radiance):
 
 
 class Scene:
-    """Collects objects, each one a node with a mesh of its own, and writes them."""
+    """Collects objects, each one a node with a mesh of its own, and writes them. With `quantized` positions and
+    normals are stored in 16 bits an axis (KHR_mesh_quantization) and indices, where they fit, in 16."""
 
-    def __init__(self, purpose):
+    def __init__(self, purpose, quantized=False):
         self.document = {
             "asset": {"version": "2.0", "extras": {"purpose": purpose}},
             "scene": 0, "scenes": [{"nodes": []}], "extensionsUsed": [],
             "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [],
         }
+        self.quantized = quantized
+        if quantized:
+            self.document["extensionsUsed"] = self.document["extensionsRequired"] = ["KHR_mesh_quantization"]
         self.binary = bytearray()
-        self.stored = {}  # id of a list of rows -> its accessor; the list is kept, so that its id stays its own
+        self.triangles = 0
+        self.stored = {}  # what begins with the id of a list of rows -> its accessor; the list is kept, so that its id stays its own
 
     def material(self, name, material):
         """Returns the index that `add` wants."""
@@ -136,19 +162,45 @@ class Scene:
         self.document["extensionsUsed"] = sorted(used)
         return len(self.document["materials"]) - 1
 
-    def add(self, name, mesh, material, position=(0, 0, 0), scale=1):
-        attributes = {"POSITION": self._accessor("VEC3", mesh.positions)}
+    def texture(self, name, png):
+        """Takes the bytes of a PNG and returns the index that a material's `..Texture` wants. It repeats."""
+        self.document.setdefault("images", []).append(
+            {"name": name, "mimeType": "image/png", "bufferView": self._view(png)})
+        self.document.setdefault("samplers", [{"magFilter": 9729, "wrapS": 10497, "wrapT": 10497}])
+        self.document.setdefault("textures", []).append(
+            {"source": len(self.document["images"]) - 1, "sampler": 0})
+        return len(self.document["textures"]) - 1
+
+    def add(self, name, mesh, material, position=(0, 0, 0), scale=1, copies=()):
+        """`copies`: places (x, y, z) relative to `position`; the mesh is then at each of them instead (by
+        EXT_mesh_gpu_instancing)."""
+        if "KHR_materials_volume" in self.document["materials"][material].get("extensions", {}):
+            _check_solid(name, mesh)
+        positions, centre, extent = mesh.positions, (0, 0, 0), 1
+        if self.quantized:
+            centre, extent = _box(positions)
+        attributes = {"POSITION": self._accessor("VEC3", positions, (centre, extent))}
         if mesh.normals:
-            attributes["NORMAL"] = self._accessor("VEC3", mesh.normals)
-        primitive = {"attributes": attributes, "indices": self._accessor("SCALAR", mesh.triangles),
+            attributes["NORMAL"] = self._accessor("VEC3", mesh.normals, ((0, 0, 0), 1))
+        if mesh.coordinates:
+            attributes["TEXCOORD_0"] = self._floats("VEC2", mesh.coordinates)
+        primitive = {"attributes": attributes, "indices": self._indices(mesh.triangles, len(positions)),
                      "material": material}
         self.document["meshes"].append({"name": name, "primitives": [primitive]})
         node = {"name": name, "mesh": len(self.document["meshes"]) - 1}
+        if copies:
+            node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": self._instances(
+                [tuple(p + scale * c for p, c in zip(place, centre)) for place in copies], scale * extent)}}
+            self.document["extensionsUsed"] = sorted({*self.document["extensionsUsed"], "EXT_mesh_gpu_instancing"})
+        else:
+            position = tuple(p + scale * c for p, c in zip(position, centre))
+            scale *= extent
         if position != (0, 0, 0):
             node["translation"] = list(position)
-        if scale != 1:
+        if scale != 1 and not copies:
             node["scale"] = [scale] * 3
         self._node(node)
+        self.triangles += len(mesh.triangles) * max(1, len(copies))
 
     def camera(self, name, eye, target, yfov, aspect):
         """`yfov` is the full vertical angle."""
@@ -162,10 +214,10 @@ class Scene:
                     "matrix": [round(x, 9) + 0.0 for x in axes]})
 
     def triangle_count(self):
-        indices = [m["primitives"][0]["indices"] for m in self.document["meshes"]]
-        return sum(self.document["accessors"][i]["count"] for i in indices) // 3
+        return self.triangles
 
     def write(self, path):
+        self.binary += b"\0" * (-len(self.binary) % 4)
         text = json.dumps({**self.document, "buffers": [{"byteLength": len(self.binary)}]},
                           separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
@@ -178,25 +230,59 @@ class Scene:
         self.document["scenes"][0]["nodes"].append(len(self.document["nodes"]))
         self.document["nodes"].append(node)
 
-    def _accessor(self, kind, rows):
-        """Rows of three floats (VEC3), or of three indices (SCALAR). The same list is stored once, whatever
-        number of objects use it."""
+    def _accessor(self, kind, rows, frame):
+        """Vectors: floats, or with quantisation 16 bits an axis of what lies within `extent` of `centre`."""
+        if not self.quantized:
+            return self._floats(kind, rows)
+        key = (id(rows), frame)
+        if key in self.stored:
+            return self.stored[key][1]
+        centre, extent = frame
+        numbers = [[round((x - c) / extent * 32767) for x, c in zip(row, centre)] for row in rows]
+        data = b"".join(struct.pack("<4h", *row, 0) for row in numbers)
+        accessor = {"bufferView": self._view(data, 34962, 8), "componentType": 5122, "normalized": True,
+                    "count": len(rows), "type": kind,
+                    "min": [min(column) for column in zip(*numbers)], "max": [max(column) for column in zip(*numbers)]}
+        return self._append(key, rows, accessor)
+
+    def _floats(self, kind, rows):
         if id(rows) in self.stored:
             return self.stored[id(rows)][1]
+        width = len(rows[0])
         numbers = [x for row in rows for x in row]
-        is_vector = kind == "VEC3"
-        data = struct.pack(f"<{len(numbers)}{'f' if is_vector else 'I'}", *numbers)
-        self.document["bufferViews"].append(
-            {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data),
-             "target": 34962 if is_vector else 34963})
-        self.binary += data
-        accessor = {"bufferView": len(self.document["bufferViews"]) - 1,
-                    "componentType": 5126 if is_vector else 5125,
-                    "count": len(numbers) // 3 if is_vector else len(numbers), "type": kind}
-        if is_vector:
-            stored = struct.unpack(f"<{len(numbers)}f", data)
-            accessor["min"] = [min(stored[axis::3]) for axis in range(3)]
-            accessor["max"] = [max(stored[axis::3]) for axis in range(3)]
+        data = struct.pack(f"<{len(numbers)}f", *numbers)
+        accessor = {"bufferView": self._view(data, 34962), "componentType": 5126, "count": len(rows), "type": kind}
+        stored = struct.unpack(f"<{len(numbers)}f", data)
+        accessor["min"] = [min(stored[axis::width]) for axis in range(width)]
+        accessor["max"] = [max(stored[axis::width]) for axis in range(width)]
+        return self._append(id(rows), rows, accessor)
+
+    def _indices(self, triangles, vertices):
+        if id(triangles) in self.stored:
+            return self.stored[id(triangles)][1]
+        numbers = [x for row in triangles for x in row]
+        short = self.quantized and vertices < 65536
+        data = struct.pack(f"<{len(numbers)}{'H' if short else 'I'}", *numbers)
+        accessor = {"bufferView": self._view(data, 34963), "componentType": 5123 if short else 5125,
+                    "count": len(numbers), "type": "SCALAR"}
+        return self._append(id(triangles), triangles, accessor)
+
+    def _instances(self, places, scale):
+        return {"TRANSLATION": self._floats("VEC3", places), "SCALE": self._floats("VEC3", [(scale,) * 3] * len(places))}
+
+    def _append(self, key, rows, accessor):
+        """The same list is stored once, whatever number of objects use it."""
         self.document["accessors"].append(accessor)
-        self.stored[id(rows)] = rows, len(self.document["accessors"]) - 1
-        return self.stored[id(rows)][1]
+        self.stored[key] = rows, len(self.document["accessors"]) - 1
+        return self.stored[key][1]
+
+    def _view(self, data, target=None, stride=None):
+        self.binary += b"\0" * (-len(self.binary) % 4)
+        view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
+        if stride:
+            view["byteStride"] = stride
+        if target:
+            view["target"] = target
+        self.document["bufferViews"].append(view)
+        self.binary += data
+        return len(self.document["bufferViews"]) - 1
