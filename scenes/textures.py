@@ -1,5 +1,6 @@
 """Pictures for materials, made of noise that is the same everywhere, and the PNG to keep them in. Standard library only."""
 
+import functools
 import math
 import struct
 import zlib
@@ -30,6 +31,7 @@ def ramp(colors, count=256):
     return palette
 
 
+@functools.lru_cache(maxsize=None)
 def hashed(*cell):
     """A number in [0,1) from integers."""
     h = 2166136261
