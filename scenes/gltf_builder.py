@@ -153,7 +153,7 @@ class Scene:
             self.document["extensionsUsed"] = self.document["extensionsRequired"] = ["KHR_mesh_quantization"]
         self.binary = bytearray()
         self.triangles = 0
-        self.stored = {}  # what begins with the id of a list of rows -> its accessor; the list is kept, so that its id stays its own
+        self.stored = {}  # by id of a list of rows: the list, kept so that its id stays its own, and its accessor
 
     def material(self, name, material):
         """Returns the index that `add` wants."""
@@ -268,7 +268,8 @@ class Scene:
         return self._append(id(triangles), triangles, accessor)
 
     def _instances(self, places, scale):
-        return {"TRANSLATION": self._floats("VEC3", places), "SCALE": self._floats("VEC3", [(scale,) * 3] * len(places))}
+        scales = [(scale,) * 3] * len(places)
+        return {"TRANSLATION": self._floats("VEC3", places), "SCALE": self._floats("VEC3", scales)}
 
     def _append(self, key, rows, accessor):
         """The same list is stored once, whatever number of objects use it."""

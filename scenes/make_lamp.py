@@ -55,11 +55,12 @@ def add_lamp(scene):
                    (0.0045, BULB_Y - 0.005), (0, BULB_Y - 0.005)], 0.003)
     scene.add("stem", turned(stem, 48), brass)
     scene.add("lamp glass", lamp_glass(), scene.material("glass", glass(1.5)))
-    scene.add("light", geodesic_sphere(6), scene.material("light", light((1.0, 0.80, 0.52), 9000)), (0, BULB_Y, 0), BULB)
+    shine = scene.material("light", light((1.0, 0.80, 0.52), 9000))
+    scene.add("light", geodesic_sphere(6), shine, (0, BULB_Y, 0), BULB)
 
 
 def wood():
-    """Planks along the picture's width, 256 x 512."""
+    """Planks along the picture's width."""
     width, height, planks = 512, 512, 4
     rows = []
     for y in range(height):
@@ -78,7 +79,8 @@ def wood():
                 value *= 0.35
             row.append(max(0, min(255, int(255 * value))))
         rows.append(row)
-    return png(width, height, rows, ramp([(58, 32, 18), (120, 72, 40), (170, 110, 64), (204, 146, 92), (224, 176, 120)]))
+    browns = [(58, 32, 18), (120, 72, 40), (170, 110, 64), (204, 146, 92), (224, 176, 120)]
+    return png(width, height, rows, ramp(browns))
 
 
 def add_room(scene):
@@ -105,7 +107,8 @@ def add_room(scene):
 
 
 def main():
-    scene = Scene("A glass lamp by a wall, after Figure 1 of the progressive photon mapping paper (2008)", quantized=True)
+    purpose = "A glass lamp by a wall, after Figure 1 of the progressive photon mapping paper (2008)"
+    scene = Scene(purpose, quantized=True)
     add_room(scene)
     add_lamp(scene)
     scene.camera("front", (0.20, 0.35, 1.00), (0.065, 0.190, -0.05), 0.50, 4 / 3)

@@ -104,6 +104,10 @@ def placed(mesh, offset=(0, 0, 0), axis=None, angle=0.0):
                 [turn(n) for n in mesh.normals], mesh.coordinates)
 
 
+def scaled(mesh, scale):
+    return Mesh([tuple(scale * x for x in p) for p in mesh.positions], mesh.triangles, mesh.normals, mesh.coordinates)
+
+
 def spline(points, closed=False):
     """A smooth curve through points of any dimension, t in [0,1] -> point (Catmull-Rom, evenly in t)."""
     count = len(points) if closed else len(points) - 1
@@ -165,6 +169,11 @@ def turned(profile, segments):
             if n > 1:
                 triangles.append((a, c, d))
     return Mesh(positions, triangles, normals)
+
+
+def spun(points, bend, segments, steps=6):
+    """`turned` of a way whose corners are rounded."""
+    return turned(broken(points, bend, steps), segments)
 
 
 def shell(outer, inner, columns, rows):

@@ -1,4 +1,4 @@
-"""Pictures for materials, made of noise that is the same everywhere, and the PNG to keep them in. Standard library only."""
+"""Pictures for materials, made of noise that is the same everywhere, and the PNG to keep them in."""
 
 import functools
 import math
