@@ -41,8 +41,10 @@ Rendering render_scene(gpu::Device& device, const scene::Scene& scene,
   Log log(Verbosity::quiet);
   const auto integrator = render::make_integrator(settings, scene, device, log, 2);
   if (!integrator->prepare(never)) throw std::logic_error("prepare was interrupted by nobody");
-  for (unsigned pass = 0; pass < passes; ++pass)
-    if (!integrator->advance(never)) throw std::logic_error("a pass was interrupted by nobody");
+  for (std::uint64_t made = 0, now = 0; made < passes; made += now) {
+    now = integrator->advance_up_to(passes - made, never);
+    if (now == 0) throw std::logic_error("a pass was interrupted by nobody");
+  }
   Rendering rendering{integrator->resolve(), integrator->statistics()};
   const auto& rejected = rendering.statistics.rejected;
   for (const char* kind : {"non_finite", "overflow"}) {
