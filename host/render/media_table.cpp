@@ -8,7 +8,9 @@
 #include "shared/media.h"
 
 namespace ppm::render {
+namespace {
 
+/// 1 / working length, by channel.
 glm::vec3 absorption_of(const scene::Material& material) {
   if (!std::isfinite(material.attenuation_distance)) return glm::vec3(0.0f);
   // Transmittance attenuation_color after attenuation_distance; a channel of 0 lets next to
@@ -16,6 +18,8 @@ glm::vec3 absorption_of(const scene::Material& material) {
   return -glm::log(glm::max(material.attenuation_color, glm::vec3(1e-30f))) /
          material.attenuation_distance;
 }
+
+}  // namespace
 
 MediaTable make_media_table(const scene::Scene& scene) {
   const scene::MediaRanking ranking = scene::rank_media(scene.materials);

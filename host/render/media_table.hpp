@@ -17,7 +17,4 @@ struct MediaTable {
 /// Throws Failure where there are more media than paths can tell apart.
 MediaTable make_media_table(const scene::Scene& scene);
 
-/// 1 / working length, by channel.
-glm::vec3 absorption_of(const scene::Material& material);
-
 }  // namespace ppm::render

@@ -46,8 +46,6 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.clearcoat = material.clearcoat;
   record.clearcoat_roughness = material.clearcoat_roughness;
   record.clearcoat_normal_scale = material.clearcoat_normal_scale;
-  record.dispersion = material.dispersion;
-  if (material.solid) record.absorption = absorption_of(material);
   return record;
 }
 

@@ -21,7 +21,7 @@ float coverage_at(uint triangle, uint material, vec2 barycentric) {
   vec3 weights = corner_weights(barycentric);
   uint first_use = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material).w;
   uint flags = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 3u).w;
-  uvec4 e = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 5u);  // alpha, cutoff, normal scale, uses
+  uvec4 e = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 4u);  // alpha, cutoff, normal scale, uses
   uvec4 c = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 2u);
   uvec4 d = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 3u);
   float alpha = uintBitsToFloat(e.x) * color_at(c, d, weights).a;
@@ -47,7 +47,7 @@ vec4 sample_use_at(uint triangle, uint material, vec2 barycentric, uint which) {
   if (!kTextures) return vec4(1.0);
   vec3 weights = corner_weights(barycentric);
   uint first_use = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material).w;
-  uint use_mask = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 5u).w;
+  uint use_mask = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * material + 4u).w;
   uvec4 b = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 1u);
   uvec4 c = PPM_FETCH_SEGMENTED(triangle_shading, 4u * triangle + 2u);
   Details details;

@@ -29,12 +29,11 @@ MaterialRecord fetch_material(uint index) {
   uvec4 d = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * index + 3u);
   uvec4 e = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * index + 4u);
   uvec4 f = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * index + 5u);
-  uvec4 g = PPM_FETCH(materials, PPM_MATERIAL_TEXELS * index + 6u);
   return MaterialRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.x), uintBitsToFloat(b.y),
                         uintBitsToFloat(b.z), uintBitsToFloat(b.w), uintBitsToFloat(c.xyz),
-                        uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w, uintBitsToFloat(e.xyz), e.w,
-                        uintBitsToFloat(f.x), uintBitsToFloat(f.y), uintBitsToFloat(f.z), f.w, uintBitsToFloat(g.x),
-                        uintBitsToFloat(g.y), uintBitsToFloat(g.z), uintBitsToFloat(g.w));
+                        uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w, uintBitsToFloat(e.x),
+                        uintBitsToFloat(e.y), uintBitsToFloat(e.z), e.w, uintBitsToFloat(f.x),
+                        uintBitsToFloat(f.y), uintBitsToFloat(f.z), f.w);
 }
 
 #endif

@@ -96,7 +96,7 @@ struct TextureUse {
 #define PPM_MATERIAL_UNLIT 16u
 #define PPM_MATERIAL_EMITS 32u  // from one side at least
 
-#define PPM_MATERIAL_TEXELS 7
+#define PPM_MATERIAL_TEXELS 6
 struct MaterialRecord {
   vec3 base_color;
   uint first_use;  // in TEXTURE_USES: one for each bit of use_mask, lowest bit first
@@ -108,14 +108,12 @@ struct MaterialRecord {
   float specular;    // idem at grazing incidence
   vec3 emission;     // radiance
   uint flags;
-  vec3 absorption;  // 1 / working length, of the medium inside when SOLID
-  uint medium;      // 1 + index in MEDIA, 0 where nothing gets inside
   float alpha, alpha_cutoff;
   float normal_scale;
   uint use_mask;  // PPM_USE_*
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
-  float dispersion;
-};  // 112
+  uint medium;  // 1 + index in MEDIA, 0 where nothing gets inside
+};              // 96
 
 // What fills a solid. Numbered from 1 by rank (shared/media.h).
 #define PPM_MEDIUM_TEXELS 2

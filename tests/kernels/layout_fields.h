@@ -17,9 +17,9 @@
   F2(r.texcoord2) U2(r.color0) U2(r.color1) U2(r.color2)
 #define PPM_FIELDS_MATERIAL_RECORD(r) \
   F3(r.base_color) U1(r.first_use) F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) \
-  F3(r.specular_f0) F1(r.specular) F3(r.emission) U1(r.flags) F3(r.absorption) U1(r.medium) \
-  F1(r.alpha) F1(r.alpha_cutoff) F1(r.normal_scale) U1(r.use_mask) F1(r.clearcoat) \
-  F1(r.clearcoat_roughness) F1(r.clearcoat_normal_scale) F1(r.dispersion)
+  F3(r.specular_f0) F1(r.specular) F3(r.emission) U1(r.flags) F1(r.alpha) F1(r.alpha_cutoff) \
+  F1(r.normal_scale) U1(r.use_mask) F1(r.clearcoat) F1(r.clearcoat_roughness) \
+  F1(r.clearcoat_normal_scale) U1(r.medium)
 #define PPM_FIELDS_TRIANGLE_DETAIL(r) \
   F2(r.texcoord0) F2(r.texcoord1) F2(r.texcoord2) U1(r.tangent0) U1(r.tangent1) U1(r.tangent2) \
   U1(r.spare0) U1(r.spare1) U1(r.spare2)
