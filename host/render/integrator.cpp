@@ -6,6 +6,7 @@
 #include "memory_plan.hpp"
 #include "path_tracer.hpp"
 #include "ppm.hpp"
+#include "scene_buffers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -49,6 +50,7 @@ const Entry& entry_named(std::string_view name) {
 
 std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scene::Scene& scene,
                                             gpu::Device& device, Log& log, unsigned threads) {
+  require_light(scene);
   return entry_named(settings.integrator).make(settings, scene, device, log, threads);
 }
 

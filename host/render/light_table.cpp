@@ -42,7 +42,48 @@ shared::LightRecord punctual_record(const scene::PunctualLight& source) {
   return record;
 }
 
+shared::LightRecord triangle_record(const scene::Material& material, std::uint32_t slot) {
+  shared::LightRecord record{};
+  record.kind = PPM_LIGHT_TRIANGLE;
+  record.emission = material.emission;
+  record.triangle = slot;
+  return record;
+}
+
+/// Mean over channels; `share` of the emission by channel.
+double mean_power(const shared::Light& light, glm::vec3 share = glm::vec3(1.0f)) {
+  const glm::dvec3 power = share * shared::light_power(light);
+  return (power.x + power.y + power.z) / 3.0;
+}
+
+bool gives_off_light(const scene::Environment& environment) {
+  return std::ranges::any_of(environment.texels, [&](const glm::vec3& texel) {
+    const glm::uvec2 packed = shared::pack_radiance(texel * environment.strength);
+    return shared::unpack_radiance(packed) != glm::vec3(0.0f);
+  });
+}
+
 }  // namespace
+
+bool gives_off_light(const scene::Scene& scene) {
+  if (scene.environment && gives_off_light(*scene.environment)) return true;
+  const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
+  const float radius = 0.5f * glm::length(scene.bounds_max - scene.bounds_min);
+  const bool has_lamp =
+      std::ranges::any_of(scene.punctual_lights, [&](const scene::PunctualLight& source) {
+        return mean_power(resolve(punctual_record(source), scene, {}, centre, radius)) > 0.0;
+      });
+  if (has_lamp) return true;
+  const EmissionMean emission_mean(scene);
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const scene::Material& material = scene.materials[scene.triangles[i].material];
+    if (material.emission == glm::vec3(0.0f)) continue;
+    const std::uint32_t order[] = {i};
+    const shared::Light light = resolve(triangle_record(material, 0), scene, order, centre, radius);
+    if (mean_power(light, emission_mean.of(i)) > 0.0) return true;
+  }
+  return false;
+}
 
 LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint32_t> order,
                             glm::vec3 bounding_centre, float bounding_radius,
@@ -50,9 +91,8 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
   LightTable table;
   std::vector<double>& powers = table.powers;
   const auto add = [&](const shared::LightRecord& record, glm::vec3 share = glm::vec3(1.0f)) {
-    const glm::dvec3 power = share * shared::light_power(resolve(record, scene, order,
-                                                                 bounding_centre, bounding_radius));
-    const double mean = (power.x + power.y + power.z) / 3.0;
+    const double mean =
+        mean_power(resolve(record, scene, order, bounding_centre, bounding_radius), share);
     if (!(mean > 0.0)) return;
     table.records.push_back(record);
     powers.push_back(mean);
@@ -62,11 +102,7 @@ LightTable make_light_table(const scene::Scene& scene, std::span<const std::uint
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
     const scene::Material& material = scene.materials[scene.triangles[order[slot]].material];
     if (material.emission == glm::vec3(0.0f)) continue;
-    shared::LightRecord record{};
-    record.kind = PPM_LIGHT_TRIANGLE;
-    record.emission = material.emission;
-    record.triangle = slot;
-    add(record, emission_mean.of(order[slot]));
+    add(triangle_record(material, slot), emission_mean.of(order[slot]));
   }
   for (const scene::PunctualLight& source : scene.punctual_lights) add(punctual_record(source));
   if (!environment.texels.empty()) {

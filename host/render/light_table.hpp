@@ -19,6 +19,10 @@ struct LightTable {
   double total_power = 0.0;    ///< sum of all lights' power, mean over channels, W * frame.scale^2
 };
 
+/// Whether a light table of the scene would hold any light. Throws nothing and builds nothing, so
+/// that darkness is found before the work for it begins.
+bool gives_off_light(const scene::Scene& scene);
+
 /// All emissive triangles (`order`: leaf slot -> triangle), punctual lights and the environment, if
 /// they have any power.
 /// Probabilities are proportional to power but for a hundredth that all share alike, so that a lamp

@@ -51,7 +51,8 @@ class SceneBuffers {
   gpu::SegmentedBuffer nodes_, positions_, shading_, details_, texels_, lights_;
 };
 
-/// Throws Failure where nothing gives off light.
+/// Throws Failure where nothing gives off light; of a scene, before anything is made of it.
+void require_light(const scene::Scene& scene);
 void require_light(const SceneBuffers& buffers, const scene::Scene& scene);
 
 }  // namespace ppm::render

@@ -89,6 +89,15 @@ TEST_F(CliFiles, WhatIsNoFileIsNoScene) {
   expect_refused("", 2, "no scene file is given");
 }
 
+TEST_F(CliFiles, ScenesWithoutLight) {
+  GltfWriter writer;
+  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
+              writer.material(lambert(glm::dvec3(0.5))));
+  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
+  writer.write(folder_ / "dark.glb");
+  expect_refused(path("dark.glb"), 1, "give --env");
+}
+
 TEST_F(CliFiles, UnreadableScene) {
   ASSERT_EQ(chmod(path("sound.glb").c_str(), 0), 0);
   const auto drop_rights = [] {  // that root has and others never had

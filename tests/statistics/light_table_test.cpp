@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -235,6 +236,52 @@ TEST(LightTable, IsEmptyInTheDark) {
   const LightTable table = make_light_table(scene, order, glm::vec3(0.0f), 1.0f);
   EXPECT_TRUE(table.records.empty());
   EXPECT_EQ(table.total_power, 0.0);
+}
+
+scene::Scene under_sky(float radiance, float strength) {
+  scene::Scene scene = scene_of({0});
+  scene.environment.emplace();
+  scene.environment->width = 2;
+  scene.environment->height = 1;
+  scene.environment->texels = {glm::vec3(0.0f), glm::vec3(0.0f, radiance, 0.0f)};
+  scene.environment->strength = strength;
+  return scene;
+}
+
+// Without a table, too: what is told beforehand is what the table will hold.
+TEST(LightTable, DarknessIsToldBeforehand) {
+  scene::Scene lamp = scene_of({0}), lamps_out = scene_of({0, 0}), black = scene_of({1});
+  lamp.punctual_lights = {point_light(0.0f), point_light(1.0f)};
+  lamps_out.punctual_lights = {point_light(0.0f)};
+  black.textures = {texture_of(2, {0, 0, 0, 255})};
+  black.materials[1].emissive_texture.emplace();
+  scene::Scene lit = black, flat = scene_of({1});
+  lit.textures[0].rgba8[2] = {1, 0, 0, 255};
+  lay_out(lit.triangles[0], {0, 0}, {0, 1}, {1, 1});
+  flat.triangles[0].corners[2].position = flat.triangles[0].corners[1].position;
+  const std::pair<scene::Scene, bool> rows[] = {{scene_of({0, 0}), false},
+                                                {scene_of({0, 1}), true},
+                                                {lamp, true},
+                                                {lamps_out, false},
+                                                {black, false},
+                                                {lit, true},
+                                                {flat, false},
+                                                {under_sky(1, 1), true},
+                                                {under_sky(0, 1), false},
+                                                {under_sky(1, 0), false},
+                                                {under_sky(1e-30f, 1), true},
+                                                {under_sky(1e-38f, 1e-3f), false}};
+  std::size_t row = 0;
+  for (const auto& [scene, shines] : rows) {
+    const std::vector<std::uint32_t> order{0, 1};
+    const EnvironmentTable sky =
+        scene.environment ? make_environment_table(*scene.environment) : EnvironmentTable{};
+    const LightTable table = make_light_table(scene, std::span(order).first(scene.triangles.size()),
+                                              glm::vec3(0.0f), 1.0f, sky);
+    EXPECT_EQ(gives_off_light(scene), shines) << row;
+    EXPECT_EQ(!table.records.empty(), shines) << row;
+    ++row;
+  }
 }
 
 TEST(LightTable, ReadsPunctualLights) {
