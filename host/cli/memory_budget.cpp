@@ -16,6 +16,7 @@ constexpr double kMostBytes = 1e18;
 std::string remedy_for(const render::MemoryPlan& plan) {
   const std::string largest = render::largest_part(plan).name;
   if (largest.starts_with("textures")) return "scale textures down";
+  if (largest.find("environment") != std::string::npos) return "scale the environment down";
   if (largest.starts_with("hit points") || largest == "picture") {
     return "make the picture smaller or lower --spp";
   }
@@ -28,10 +29,11 @@ std::string remedy_for(const render::MemoryPlan& plan) {
 
 [[noreturn]] void refuse(const std::string& file, const render::MemoryPlan& plan, const char* place,
                          std::uint64_t bytes, const std::string& limit, const char* other_remedy) {
-  throw Failure(file, place,
-                fmt::format("a rendering takes {} ({}), but {}", render::size_text(bytes),
-                            render::describe_peak(plan), limit),
-                remedy_for(plan) + other_remedy);
+  throw Failure(
+      file, place,
+      fmt::format("a rendering takes {}{} ({}), but {}", plan.is_complete ? "" : "at least ",
+                  render::size_text(bytes), render::describe_peak(plan), limit),
+      remedy_for(plan) + other_remedy);
 }
 
 }  // namespace

@@ -44,12 +44,18 @@ MemoryLimits memory_limits_for(const RenderOptions& options) {
 
 scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLimits& limits) {
   scene::LoadOptions load = options.load;
-  // The camera is not known yet: without --width and --height the usual size is reckoned with.
-  render::Settings settings = options.settings;
-  settings.width = options.width.value_or(settings.width);
-  settings.height = options.height.value_or(settings.height);
-  load.admit = [settings, limits, file = options.scene.string()](const scene::SceneSize& size) {
-    check_memory(file, render::memory_plan(size, settings, render::PassLimits::of_cpu()), limits);
+  load.admit = [options, limits](const scene::SceneSize& size, const scene::Scene* scene) {
+    render::Settings settings = options.settings;
+    if (scene != nullptr) {
+      Log silence(Verbosity::quiet);  // what there is to say of the camera is said later
+      settings = settings_for(options, *scene, silence);
+    } else {  // as small as it can be
+      settings.width = options.width.value_or(1);
+      settings.height = options.height.value_or(1);
+    }
+    render::MemoryPlan plan = render::memory_plan(size, settings, render::PassLimits::of_cpu());
+    plan.is_complete = scene != nullptr;
+    check_memory(options.scene.string(), plan, limits);
   };
   return load;
 }

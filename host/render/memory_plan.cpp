@@ -26,6 +26,10 @@ constexpr std::uint64_t kTileHitBytes =
     5 * 16 + sizeof(shared::HitKey) + sizeof(std::uint32_t) + 2 * sizeof(shared::EyePath);
 constexpr std::uint64_t kPhotonBytes = 4 * sizeof(glm::uvec4);  // as found and in cell order
 
+// Of an entry of an alias table while it is made: its weight, also scaled, threshold, alias and its
+// place in one of two lists.
+constexpr std::uint64_t kAliasBytes = 2 * sizeof(double) + 3 * sizeof(std::uint32_t);
+
 std::uint64_t share(double factor, std::uint64_t count) {
   return static_cast<std::uint64_t>(factor * static_cast<double>(count));
 }
@@ -104,19 +108,35 @@ MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
   const std::uint64_t records =
       n * (sizeof(shared::TrianglePositions) + sizeof(shared::TriangleShading)) +
       details * sizeof(shared::TriangleDetail) + nodes;
-  MemoryPlan plan{{
+  const std::uint64_t surroundings =
+      size.materials * (sizeof(shared::MaterialRecord) + sizeof(shared::MediumRecord)) +
+      size.lights * (sizeof(shared::LightRecord) + sizeof(std::uint32_t));
+  const std::uint64_t sky = size.environment_texels;
+  MemoryPlan plan;
+  plan.parts = {
       // A container is held twice while it is taken apart.
-      {"file", 2 * size.file_bytes + size.decoded_bytes, false, Phase::load, Phase::load},
+      {"file", 2 * size.file_bytes, false, Phase::load, Phase::load},
+      {"unpacked geometry", size.decoded_bytes + size.decoder_bytes, false, Phase::load,
+       Phase::load},
       {"triangles", n * sizeof(scene::Triangle) + details * sizeof(scene::TriangleDetail), false,
        Phase::load, Phase::upload},
       {"textures", size.texture_bytes, false, Phase::load, Phase::upload},
       {"tree while it is built", tree + nodes, false, Phase::build, Phase::build},
       {"tree and triangles on the device", records, true, Phase::upload, Phase::render},
+      {"environment", sky * sizeof(glm::vec3), false, Phase::load, Phase::render},
+      {"environment as it is read", sky * sizeof(glm::vec3), false, Phase::load, Phase::load},
+      {"tables of environment and lights",
+       sky * (sizeof(glm::uvec4) + kAliasBytes) +
+           size.lights * (sizeof(shared::LightRecord) + kAliasBytes),
+       false, Phase::upload, Phase::upload},
+      {"environment on the device", sky * sizeof(glm::uvec4), true, Phase::upload, Phase::render},
+      {"materials, media and lights on the device", surroundings, true, Phase::upload,
+       Phase::render},
       {"textures on the device", size.texture_bytes, true, Phase::upload, Phase::render},
       {"picture", std::uint64_t{settings.width} * settings.height * 2 * 3 * sizeof(float), false,
        Phase::render, Phase::render},
       {"program and driver", kProgram, false, Phase::load, Phase::render},
-  }};
+  };
   for (MemoryPart& part : method_memory(settings, limits)) plan.parts.push_back(std::move(part));
   return plan;
 }

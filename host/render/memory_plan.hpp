@@ -24,6 +24,7 @@ struct MemoryPart {
 
 struct MemoryPlan {
   std::vector<MemoryPart> parts;
+  bool is_complete = true;  ///< otherwise more may come
 
   /// The most that is held at a time, on host and device together, or on one of them.
   std::uint64_t peak() const;

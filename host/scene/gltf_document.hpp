@@ -3,6 +3,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -33,11 +34,18 @@ struct Document {
   std::map<int, std::vector<std::uint8_t>> unpacked;  ///< bufferViews that are compressed
   std::set<std::string> sound_sparse;  ///< accessors whose sparse indices were checked
   SceneSize size;                      ///< as far as it is known
-  std::function<void(const SceneSize&)> admit;
+  std::function<void(const SceneSize&, const Scene*)> admit;  ///< LoadOptions::admit
 
-  /// To be called when `size` has grown, before what it counts is allocated.
-  void ask_admission() const {
-    if (admit) admit(size);
+  /// To be called when `size` has grown, before what it counts is allocated. `scene`: where the
+  /// size is all there is.
+  void ask_admission(const Scene* scene = nullptr) const {
+    if (admit) admit(size, scene);
+  }
+  /// For compressed geometry of so many bytes, whose decoder takes so many more for a while.
+  void claim_decoded(std::uint64_t bytes, std::uint64_t for_decoder) {
+    size.decoded_bytes += bytes;
+    size.decoder_bytes = std::max(size.decoder_bytes, for_decoder);
+    ask_admission();
   }
 };
 

@@ -97,19 +97,55 @@ void check_count(const Element<tinygltf::Accessor>& accessor, std::uint64_t actu
                                 kRemedy);
 }
 
-std::vector<std::uint8_t> unpack_attribute(const Place& reference, const draco::Mesh& mesh,
-                                           int number, int index) {
-  const auto accessor = accessor_of(reference, index);
-  const draco::PointAttribute* const attribute =
-      mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(number));
-  if (!attribute) reference.fail("is not in the Draco stream", kRemedy);
-  check_count(accessor, mesh.num_points(), "vertices");
+std::uint64_t element_bytes(const Element<tinygltf::Accessor>& accessor) {
   const Accessor layout(accessor, {});
-  std::vector<std::uint8_t> bytes(mesh.num_points() * size_of(layout.component_type()) *
-                                  static_cast<std::uint64_t>(layout.components()));
+  return size_of(layout.component_type()) * static_cast<std::uint64_t>(layout.components());
+}
+
+/// An attribute of the primitive that is in the stream.
+struct Packed {
+  std::string name;
+  int number;  ///< in the stream
+  Place reference;
+  Element<tinygltf::Accessor> accessor;
+};
+
+std::vector<Packed> packed_attributes(const Element<tinygltf::Primitive>& primitive,
+                                      const Extension& extension) {
+  std::vector<Packed> list;
+  for (const auto& [name, number] : extension.indices("attributes")) {
+    const auto attribute = primitive->attributes.find(name);
+    if (attribute == primitive->attributes.end()) continue;
+    const Place reference = primitive.member("attributes").member(printable(name));
+    list.push_back({name, number, reference, accessor_of(reference, attribute->second)});
+  }
+  return list;
+}
+
+/// Before any of it is unpacked. The decoder keeps faces, what is opposite of each corner, and
+/// values as they are in the stream and as they come out.
+void claim(std::uint64_t faces, const Element<tinygltf::Accessor>& indices,
+           const std::vector<Packed>& attributes) {
+  constexpr std::uint64_t kDecoderBytesAFace = 64;
+  std::uint64_t bytes = 3 * faces * element_bytes(indices);
+  for (const Packed& packed : attributes) {
+    // The stream has no more points than its faces have corners, whatever the accessor says.
+    const std::uint64_t points = std::min<std::uint64_t>(packed.accessor->count, 3 * faces);
+    bytes += points * element_bytes(packed.accessor);
+  }
+  indices.document().claim_decoded(bytes, kDecoderBytesAFace * faces + 2 * bytes);
+}
+
+std::vector<std::uint8_t> unpack_attribute(const Packed& packed, const draco::Mesh& mesh) {
+  const draco::PointAttribute* const attribute =
+      mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(packed.number));
+  if (!attribute) packed.reference.fail("is not in the Draco stream", kRemedy);
+  check_count(packed.accessor, mesh.num_points(), "vertices");
+  const Accessor layout(packed.accessor, {});
+  std::vector<std::uint8_t> bytes(mesh.num_points() * element_bytes(packed.accessor));
   if (attribute->num_components() < layout.components() ||
       !convert(mesh, *attribute, layout.component_type(), layout.components(), bytes)) {
-    reference.fail("does not agree with its Draco stream", kRemedy);
+    packed.reference.fail("does not agree with its Draco stream", kRemedy);
   }
   return bytes;
 }
@@ -146,18 +182,18 @@ std::optional<DracoMesh> DracoMesh::read(const Element<tinygltf::Primitive>& pri
   if (index == -1) primitive.fail("is compressed, but has no indices", kRemedy);
   const auto indices = accessor_of(primitive.member("indices"), index);
   const ByteView stream = bytes_of(view);
-  check_count(indices, 3 * checked_sizes(*extension, stream).faces, "corners");
+  const std::uint64_t faces = checked_sizes(*extension, stream).faces;
+  check_count(indices, 3 * faces, "corners");
+  const std::vector<Packed> attributes = packed_attributes(primitive, *extension);
+  claim(faces, indices, attributes);
   const std::unique_ptr<draco::Mesh> mesh = decode(*extension, stream);
   check_count(indices, 3 * std::uint64_t{mesh->num_faces()}, "corners");
 
   DracoMesh result;
   result.index_accessor_ = index;
   result.indices_ = unpack_indices(indices, *mesh);
-  for (const auto& [name, number] : extension->indices("attributes")) {
-    const auto attribute = primitive->attributes.find(name);
-    if (attribute == primitive->attributes.end()) continue;
-    const Place reference = primitive.member("attributes").member(printable(name));
-    result.attributes_[name] = unpack_attribute(reference, *mesh, number, attribute->second);
+  for (const Packed& packed : attributes) {
+    result.attributes_[packed.name] = unpack_attribute(packed, *mesh);
   }
   return result;
 }

@@ -40,16 +40,8 @@ float srgb_to_linear(std::uint8_t code) {
 }
 
 /// RGBD: colours divided by what stands for alpha.
-Face decode_face(const Element<tinygltf::Image>& element, std::uint32_t& size) {
-  const Image image = decode_image(element, true, kLargestFaceBytes);
-  if (image.width > kLargestFace) {
-    element.fail("its " + std::to_string(image.width) + " texels a side are too many",
-                 "use faces of at most 1024");
-  }
-  if (image.width != image.height || (size != 0 && image.width != size)) {
-    element.fail("is not square or not as large as the other faces", "export the light again");
-  }
-  size = image.width;
+Face decode_face(const Element<tinygltf::Image>& element) {
+  const Image image = decode_image(element, true);
   Face face;
   const auto add = [&](glm::vec4 rgbd) {
     face.push_back(glm::vec3(rgbd) / std::max(rgbd.w, kLeastDivisor));
@@ -63,19 +55,37 @@ Face decode_face(const Element<tinygltf::Image>& element, std::uint32_t& size) {
   return face;
 }
 
-Cube read_cube(const Extension& light) {
+void measure_face(const Element<tinygltf::Image>& element, std::uint32_t& size) {
+  const ImageSize image = measure_image(element, kLargestFaceBytes);
+  if (image.width > kLargestFace) {
+    element.fail("its " + std::to_string(image.width) + " texels a side are too many",
+                 "use faces of at most 1024");
+  }
+  if (image.width != image.height || (size != 0 && image.width != size)) {
+    element.fail("is not square or not as large as the other faces", "export the light again");
+  }
+  size = image.width;
+}
+
+std::vector<Element<tinygltf::Image>> faces_of(const Extension& light) {
   const Place list = light.member("specularImages");
   const tinygltf::Value* const mips = light.value("specularImages");
   if (mips == nullptr || !mips->IsArray() || mips->ArrayLen() == 0 || !mips->Get(0).IsArray() ||
       mips->Get(0).ArrayLen() != kFaces) {
     list.fail("does not begin with a list of six faces", "export the light again");
   }
-  Cube cube;
+  std::vector<Element<tinygltf::Image>> faces;
   for (std::size_t i = 0; i < kFaces; ++i) {
     const Place place = list.item(0).item(i);
     const int index = index_of(place, mips->Get(0).Get(static_cast<int>(i)));
-    cube.faces[i] = decode_face(follow(place, index, light.model().images, "images"), cube.size);
+    faces.push_back(follow(place, index, light.model().images, "images"));
   }
+  return faces;
+}
+
+Cube decode(const EnvironmentSource& source) {
+  Cube cube{source.face_size, {}};
+  for (std::size_t i = 0; i < kFaces; ++i) cube.faces[i] = decode_face(source.faces[i]);
   return cube;
 }
 
@@ -130,13 +140,13 @@ glm::dmat3 rotation_of(const Extension& light) {
   return glm::mat3_cast(glm::normalize(rotation));
 }
 
-Environment unfold(const Cube& cube, const glm::dmat3& to_world) {
+Environment unfold(const Cube& cube, const EnvironmentSource& source) {
   constexpr double kPi = std::numbers::pi;
   Environment environment;
-  environment.width = 4 * cube.size;
-  environment.height = 2 * cube.size;
+  environment.height = source.map_height();
+  environment.width = 2 * environment.height;
   environment.texels.reserve(std::size_t{environment.width} * environment.height);
-  const glm::dmat3 to_light = glm::transpose(to_world);
+  const glm::dmat3 to_light = glm::transpose(source.to_world);
   for (std::uint32_t row = 0; row < environment.height; ++row) {
     const double polar = (row + 0.5) / environment.height * kPi;
     for (std::uint32_t column = 0; column < environment.width; ++column) {
@@ -151,7 +161,7 @@ Environment unfold(const Cube& cube, const glm::dmat3& to_world) {
 
 }  // namespace
 
-std::optional<Environment> read_environment(Document& document, const std::string& wanted) {
+std::optional<EnvironmentSource> find_environment(Document& document, const std::string& wanted) {
   const auto scene = find_scene(document, wanted);
   if (!scene) return std::nullopt;
   const auto reference = Extension::find(*scene, (*scene)->extensions, kName);
@@ -170,9 +180,15 @@ std::optional<Environment> read_environment(Document& document, const std::strin
                         lights->Get(index).Get<tinygltf::Value::Object>());
   const float intensity = light.factor("intensity", 1.0, 0.0, kLargestIntensity);
   if (intensity == 0.0f) return std::nullopt;
-  Environment environment = unfold(read_cube(light), rotation_of(light));
-  environment.name = document.file;
-  environment.strength = intensity;
+  EnvironmentSource source{intensity, rotation_of(light), faces_of(light), 0};
+  for (const auto& face : source.faces) measure_face(face, source.face_size);
+  return source;
+}
+
+Environment read_environment(const EnvironmentSource& source) {
+  Environment environment = unfold(decode(source), source);
+  environment.name = source.faces.front().document().file;
+  environment.strength = source.intensity;
   return environment;
 }
 

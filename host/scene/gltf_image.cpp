@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 #include <memory>
 
 #include "gltf_image_format.hpp"
@@ -129,9 +130,13 @@ class Decoder {
     }
   }
 
-  std::uint64_t byte_count() const {
-    return static_cast<std::uint64_t>(spec_.width) * static_cast<std::uint64_t>(spec_.height) *
-           (is_of_bytes() ? sizeof(glm::u8vec4) : sizeof(glm::u16vec4));
+  /// Needs check_size.
+  ImageSize size() const {
+    const auto width = static_cast<std::uint32_t>(spec_.width);
+    const auto height = static_cast<std::uint32_t>(spec_.height);
+    return {width, height,
+            std::uint64_t{width} * height *
+                (is_of_bytes() ? sizeof(glm::u8vec4) : sizeof(glm::u16vec4))};
   }
 
   Image read(bool srgb) {
@@ -214,13 +219,19 @@ ByteView encoded_bytes(const Element<tinygltf::Image>& image) {
 
 }  // namespace
 
-Image decode_image(const Element<tinygltf::Image>& image, bool srgb, std::uint64_t byte_budget) {
+ImageSize measure_image(const Element<tinygltf::Image>& image, std::uint64_t byte_budget) {
+  const ByteView bytes = encoded_bytes(image);
+  const Silence silence;
+  const Decoder decoder(image, bytes);
+  decoder.check_size(byte_budget);
+  return decoder.size();
+}
+
+Image decode_image(const Element<tinygltf::Image>& image, bool srgb) {
   const ByteView bytes = encoded_bytes(image);
   const Silence silence;
   Decoder decoder(image, bytes);
-  decoder.check_size(byte_budget);
-  image.document().size.texture_bytes += decoder.byte_count();
-  image.document().ask_admission();
+  decoder.check_size(std::numeric_limits<std::uint64_t>::max());
   return decoder.read(srgb);
 }
 

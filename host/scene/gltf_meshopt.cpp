@@ -123,6 +123,7 @@ std::optional<std::vector<std::uint8_t>> unpacked_bytes(const Element<tinygltf::
     extension->fail("unpacks to " + std::to_string(size) + " bytes, fewer than its bufferView's",
                     "correct count, byteStride or byteLength");
   }
+  view.document().claim_decoded(size, 0);
   std::vector<std::uint8_t> bytes(size);
   if (!unpack(stream, bytes)) extension->fail("its stream is corrupt", kRemedy);
   undo_filter(stream, bytes);

@@ -132,21 +132,29 @@ std::optional<std::uint32_t> TextureReader::find(const Info& info, Content conte
   const auto known = known_.find(key);
   if (known != known_.end()) return known->second;
 
-  const auto image_element = follow(source->first, source->second, model.images, "images");
-  const bool is_color = content == Content::colors;
-  Image image = decode_image(image_element, is_color, kMostBytes - byte_count_);
-  byte_count_ +=
-      image.rgba8.size() * sizeof(glm::u8vec4) + image.halves.size() * sizeof(glm::u16vec4);
-  texture.name = element->name.empty() ? image_element.name() : element.name();
-  texture.width = image.width;
-  texture.height = image.height;
-  texture.srgb = is_color && !image.rgba8.empty();
-  texture.rgba8 = std::move(image.rgba8);
-  texture.halves = std::move(image.halves);
+  const auto image = follow(source->first, source->second, model.images, "images");
+  std::uint64_t& bytes = element.document().size.texture_bytes;
+  const ImageSize size = measure_image(image, kMostBytes - bytes);
+  bytes += size.bytes;
+  texture.name = element->name.empty() ? image.name() : element.name();
+  texture.width = size.width;
+  texture.height = size.height;
   textures_.push_back(std::move(texture));
+  waiting_.push_back({image, content});
   const auto position = static_cast<std::uint32_t>(textures_.size() - 1);
   known_.emplace(key, position);
   return position;
+}
+
+void TextureReader::decode() {
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const bool is_color = waiting_[i].content == Content::colors;
+    Image image = decode_image(waiting_[i].image, is_color);
+    textures_[i].srgb = is_color && !image.rgba8.empty();
+    textures_[i].rgba8 = std::move(image.rgba8);
+    textures_[i].halves = std::move(image.halves);
+  }
+  waiting_.clear();
 }
 
 }  // namespace ppm::scene::gltf

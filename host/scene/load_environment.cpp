@@ -53,6 +53,10 @@ class EnvironmentFile {
   EnvironmentFile(const EnvironmentFile&) = delete;
   EnvironmentFile& operator=(const EnvironmentFile&) = delete;
 
+  std::uint64_t texels() const {
+    return static_cast<std::uint64_t>(spec_.width) * static_cast<std::uint64_t>(spec_.height);
+  }
+
   Environment read() {
     Environment environment;
     environment.name = file_;
@@ -123,6 +127,10 @@ std::size_t clamp_texels(std::vector<glm::vec3>& texels) {
 bool is_environment_file(const fs::path& file) {
   const std::string extension = lower_extension(file);
   return extension == ".hdr" || extension == ".exr";
+}
+
+std::uint64_t environment_texels(const fs::path& file) {
+  return EnvironmentFile(file).texels();
 }
 
 Environment load_environment(const fs::path& file, Log& log) {

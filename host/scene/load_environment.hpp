@@ -1,6 +1,7 @@
 // Environment maps from files (Radiance .hdr, OpenEXR .exr).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "log.hpp"
@@ -10,6 +11,9 @@ namespace ppm::scene {
 
 /// Whether the extension is .hdr or .exr, without regard to case.
 bool is_environment_file(const std::filesystem::path& file);
+
+/// How many texels the file has, from its header. Throws Failure as load_environment does.
+std::uint64_t environment_texels(const std::filesystem::path& file);
 
 /// Reads a map over longitude and latitude, twice as wide as high, as linear radiance: its first
 /// three channels, or its only one. Texels that are negative, infinite or no numbers are clamped,

@@ -93,9 +93,13 @@ std::uint64_t checked_triangle_count(const std::vector<Instance>& instances, con
   return count;
 }
 
-Frame frame_of(const std::vector<Instance>& instances, const Place& root) {
+Box box_of(const std::vector<Instance>& instances) {
   Box box;
   for_each_posed(instances, [&](const PosedPrimitive& posed) { extend(box, posed); });
+  return box;
+}
+
+Frame frame_of(const Box& box, const Place& root) {
   const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
   const double extent = std::max({half.x, half.y, half.z});
   int exponent = 0;
@@ -108,19 +112,27 @@ Frame frame_of(const std::vector<Instance>& instances, const Place& root) {
   return {0.5 * box.low + 0.5 * box.high, std::ldexp(1.0, -exponent)};
 }
 
-/// Needs the scene's frame and materials.
-void bake_triangles(const std::vector<Instance>& instances, std::uint64_t count, const Place& root,
-                    Scene& scene, Log& log) {
-  std::vector<DetailNeeds> needs;
-  Baked baked;
-  for (const Material& material : scene.materials) {
-    needs.push_back(needs_of(material));
-    baked.with_details = baked.with_details || needs.back().any();
+std::uint64_t emissive_triangle_count(const std::vector<Instance>& instances,
+                                      const std::vector<Material>& materials) {
+  std::uint64_t count = 0;
+  for (const Instance& instance : instances) {
+    for (const Primitive& primitive : *instance.primitives) {
+      const bool emits = materials[primitive.material].emission != glm::vec3(0.0f);
+      count += emits ? instance.count() * primitive.triangle_count : 0;
+    }
   }
-  root.document().size.details = baked.with_details;
-  root.document().ask_admission();
-  baked.triangles.reserve(count);
-  if (baked.with_details) baked.details.reserve(count);
+  return count;
+}
+
+/// Needs the scene's frame and materials.
+void bake_triangles(const std::vector<Instance>& instances, const SceneSize& size,
+                    const Place& root, Scene& scene, Log& log) {
+  Baked baked;
+  baked.with_details = size.details;
+  baked.triangles.reserve(size.triangles);
+  if (baked.with_details) baked.details.reserve(size.triangles);
+  std::vector<DetailNeeds> needs;
+  for (const Material& material : scene.materials) needs.push_back(needs_of(material));
   for_each_posed(instances, [&](const PosedPrimitive& posed) {
     bake(posed, scene.frame, needs.at(posed.primitive().material), baked);
   });
@@ -152,8 +164,8 @@ void measure_bounds(Scene& scene) {
   }
 }
 
-void read_materials(const MaterialUses& uses, const Place& root, Scene& scene) {
-  MaterialReader reader(scene.textures);
+void read_materials(const MaterialUses& uses, const Place& root, MaterialReader& reader,
+                    Scene& scene) {
   const Place list = root.member("materials");
   for (const std::optional<int>& index : uses.in_order()) {
     if (index) {
@@ -166,13 +178,21 @@ void read_materials(const MaterialUses& uses, const Place& root, Scene& scene) {
   }
 }
 
+/// What follows from the scene's materials and lights.
+void complete(SceneSize& size, const std::vector<Instance>& instances, const Scene& scene) {
+  size.materials = scene.materials.size();
+  size.details = std::ranges::any_of(
+      scene.materials, [](const Material& material) { return needs_of(material).any(); });
+  size.lights = scene.punctual_lights.size() + emissive_triangle_count(instances, scene.materials);
+}
+
 Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
   if (options.admit) {
     SceneSize size;
     std::error_code unknown;  // what cannot be measured cannot be read either, which is told below
     const auto bytes = std::filesystem::file_size(file, unknown);
     if (!unknown) size.file_bytes = bytes;
-    options.admit(size);
+    options.admit(size, nullptr);
   }
   Document document = read_document(file, log);
   document.admit = options.admit;
@@ -190,20 +210,35 @@ Scene read_scene(const std::filesystem::path& file, const LoadOptions& options, 
   scene.findings.file_bytes = document.size.file_bytes;
   document.size.triangles = checked_triangle_count(instances, root);
   document.ask_admission();
-  scene.frame = frame_of(instances, root);
-  read_materials(uses, root, scene);
-  bake_triangles(instances, document.size.triangles, root, scene, log);
-  measure_bounds(scene);
-  settle_alpha_modes(scene);
-  let_touching_media_overlap(scene);
+  const Box box = box_of(instances);
+  scene.frame = frame_of(box, root);
+  scene.bounds_min = scene.frame.to_working(box.low);
+  scene.bounds_max = scene.frame.to_working(box.high);
   for (const Placement& placement : placements) {
     if (auto light = read_light(placement, scene.frame, options.luminous_efficacy))
       scene.punctual_lights.push_back(*light);
     if (auto camera = read_camera(placement, scene.frame)) scene.cameras.push_back(*camera);
   }
-  if (options.environment.empty()) {
-    scene.environment = read_environment(document, options.scene);
+  MaterialReader reader(scene.textures);
+  read_materials(uses, root, reader, scene);
+  std::optional<EnvironmentSource> environment;
+  if (options.environment.empty()) environment = find_environment(document, options.scene);
+
+  if (environment) document.size.environment_texels = environment->texels();
+  if (!options.environment.empty()) {
+    document.size.environment_texels = environment_texels(options.environment);
   }
+  complete(document.size, instances, scene);
+  scene.findings.decoded_bytes = document.size.decoded_bytes;
+  scene.findings.decoder_bytes = document.size.decoder_bytes;
+  document.ask_admission(&scene);
+
+  reader.decode_textures();
+  bake_triangles(instances, document.size, root, scene, log);
+  measure_bounds(scene);
+  settle_alpha_modes(scene);
+  let_touching_media_overlap(scene);
+  if (environment) scene.environment = read_environment(*environment);
   return scene;
 }
 

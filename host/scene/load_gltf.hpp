@@ -17,8 +17,9 @@ struct LoadOptions {
   /// none, all root nodes if it has none.
   std::string scene{};
   /// Asked with all that is known of the scene's size whenever more of it is, before that is
-  /// allocated; throws Failure where it is too much. May be empty.
-  std::function<void(const SceneSize&)> admit{};
+  /// allocated; throws Failure where it is too much. `scene` is null until the size is complete,
+  /// and then has at least its name, frame, bounds and cameras. May be empty.
+  std::function<void(const SceneSize& size, const Scene* scene)> admit{};
   /// Lumen a watt: what punctual lights' candela and lux are divided by.
   double luminous_efficacy = 1.0;
   /// A map that replaces the file's own environment; empty: none.

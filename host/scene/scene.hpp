@@ -155,7 +155,9 @@ struct Camera {
 
 /// What the loader found beside what is rendered: for people, and for nothing else.
 struct Findings {
-  std::uint64_t file_bytes = 0;              ///< of all files that were read
+  std::uint64_t file_bytes = 0;  ///< of all files that were read
+  /// Of compressed geometry while the file was read, and what its decoders took besides.
+  std::uint64_t decoded_bytes = 0, decoder_bytes = 0;
   std::vector<UsedExtension> extensions;     ///< by name
   std::uint64_t triangles_without_area = 0,  ///< left out
       triangles_too_small = 0;               ///< left out: no area in single precision

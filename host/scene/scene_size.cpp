@@ -18,10 +18,20 @@ std::uint64_t bytes_of(const Texture& texture) {
 
 SceneSize SceneSize::of(const Scene& scene) {
   SceneSize size;
-  size.file_bytes = scene.findings.file_bytes;
-  size.triangles = scene.triangles.size();
+  const Findings& findings = scene.findings;
+  size.file_bytes = findings.file_bytes;
+  size.decoded_bytes = findings.decoded_bytes;
+  size.decoder_bytes = findings.decoder_bytes;
+  size.triangles =
+      scene.triangles.size() + findings.triangles_without_area + findings.triangles_too_small;
   size.details = !scene.details.empty();
   for (const Texture& texture : scene.textures) size.texture_bytes += bytes_of(texture);
+  if (scene.environment) size.environment_texels = scene.environment->texels.size();
+  size.materials = scene.materials.size();
+  size.lights = scene.punctual_lights.size();
+  for (const Triangle& triangle : scene.triangles) {
+    size.lights += scene.materials[triangle.material].emission != glm::vec3(0.0f) ? 1 : 0;
+  }
   return size;
 }
 

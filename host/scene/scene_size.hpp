@@ -11,10 +11,16 @@ namespace ppm::scene {
 /// so before it allocates (LoadOptions::admit); `of` says it of a scene that is there.
 struct SceneSize {
   std::uint64_t file_bytes = 0;     ///< of all files that are read
-  std::uint64_t decoded_bytes = 0;  ///< that compressed or sparse data takes while it is read
-  std::uint64_t triangles = 0;      ///< instances included
+  std::uint64_t decoded_bytes = 0;  ///< of compressed geometry, held while the file is read
+  std::uint64_t decoder_bytes = 0;  ///< that its decoders take besides, one at a time
+  std::uint64_t triangles = 0;      ///< instances included, and those that are left out
   bool details = false;             ///< whether Scene::details is needed
   std::uint64_t texture_bytes = 0;  ///< decoded
+  std::uint64_t environment_texels = 0;
+  std::uint64_t materials = 0;
+  std::uint64_t lights = 0;  ///< triangles that emit and punctual lights
+
+  bool operator==(const SceneSize&) const = default;
 
   static SceneSize of(const Scene& scene);
 };

@@ -7,7 +7,12 @@
 #include <limits>
 
 #include "failure.hpp"
+#include "gltf_writer.hpp"
+#include "image.hpp"
+#include "inspect_report.hpp"
+#include "load_gltf.hpp"
 #include "machine_memory.hpp"
+#include "scene_settings.hpp"
 #include "temporary_folder.hpp"
 
 namespace ppm::tests {
@@ -66,6 +71,23 @@ TEST(MemoryPlan, GrowsWithWhatThereIs) {
   }
 }
 
+// By hand: 12 bytes a texel on the host, twice while it is read; 16 on the device, and so much and
+// the alias table's 28 beside it while that is made. 68 bytes a light, 128 a material on the
+// device.
+TEST(MemoryPlan, GrowsWithSkyLightsMaterialsAndWhatIsUnpacked) {
+  constexpr std::uint64_t kTexels = std::uint64_t{1} << 23, kMany = 10000000;
+  const MemoryPlan none = plan_of({}), sky = plan_of({.environment_texels = kTexels}),
+                   lights = plan_of({.lights = kMany}), materials = plan_of({.materials = kMany}),
+                   unpacked = plan_of({.decoded_bytes = 3 * kGiB, .decoder_bytes = kGiB});
+  EXPECT_EQ(sky.device_peak() - none.device_peak(), kTexels * 16);
+  EXPECT_NEAR(static_cast<double>(sky.host_peak() - none.host_peak()), kTexels * (12.0 + 44.0),
+              1e7);  // the picture is not there yet
+  EXPECT_EQ(lights.device_peak() - none.device_peak(), kMany * 68);
+  EXPECT_EQ(materials.device_peak() - none.device_peak(), kMany * 128);
+  EXPECT_NEAR(static_cast<double>(unpacked.host_peak() - none.host_peak()), 4.0 * kGiB, 1e7);
+  EXPECT_EQ(unpacked.device_peak(), none.device_peak());
+}
+
 TEST(MemoryPlan, GrowsWithThePicture) {
   render::Settings settings;
   const MemoryPlan usual = plan_of({}, settings);
@@ -98,6 +120,46 @@ TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   settings.width = settings.height = 32768;
   const std::string picture = refusal(plan_of({}, settings), {4 * kGiB, 0, 0});
   EXPECT_TRUE(contains(picture, "make the picture smaller")) << picture;
+}
+
+// A scene with textures, a sky from a file, a lamp of triangles and a camera of its own aspect:
+// what is said before it is loaded is what is said of it when it is there, to the byte.
+TEST(MemoryBudget, RefusesByTheTotalThatInspectTells) {
+  const test::TemporaryFolder folder;
+  test::GltfWriter writer;
+  writer.mesh(test::icosphere(3), writer.material(test::emitter({1.0, 1.0, 1.0})));
+  writer.camera("wide", {0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}, 0.8, 2.5);
+  writer.write(folder / "s.glb");
+  image::write(folder / "sky.exr", {512, 256, std::vector<float>(512 * 256 * 3, 1.0f)}, 0.0, {});
+  cli::RenderOptions options;
+  options.scene = folder / "s.glb";
+  options.load.environment = folder / "sky.exr";
+  const auto load = [&](std::uint64_t budget) {
+    Log log(Verbosity::quiet);
+    return scene::load_gltf(options.scene, log,
+                            cli::load_options_for(options, {budget, kPlenty, std::nullopt}));
+  };
+  Log log(Verbosity::quiet);
+  const scene::Scene scene = load(kPlenty);
+  const render::Settings settings = cli::settings_for(options, scene, log);
+  const MemoryPlan plan = cli::inspect(scene, settings, {}).memory;
+  EXPECT_EQ(settings.height, 256u);
+  EXPECT_NO_THROW(load(plan.peak()));
+  try {
+    load(plan.peak() - 1);
+    FAIL();
+  } catch (const Failure& failure) {
+    const std::string text = failure.what();
+    EXPECT_TRUE(contains(text, ("a rendering takes " + render::size_text(plan.peak())).c_str()))
+        << text;
+  }
+  // Before all is known there is only a lower bound, and it is called one.
+  try {
+    load(1000);
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_TRUE(contains(failure.what(), "a rendering takes at least ")) << failure.what();
+  }
 }
 
 // A machine as /proc and /sys show it, and what is left of it.
