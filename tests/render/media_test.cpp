@@ -283,14 +283,14 @@ TEST_P(LampTest, ShinesOutOfNestedBalls) {
     EXPECT_NEAR(arrived[channel], expected, 5.0 * std::sqrt(kPaths) * 0.6 + 0.006 * expected);
   }
 }
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, LampTest,
-    ::testing::Values(LampKind::point, LampKind::spot, LampKind::triangles,
-                      LampKind::glowing_glass),
-    [](const auto& test) {
-      constexpr const char* kNames[] = {"point", "spot", "triangles", "glowing_glass"};
-      return std::string(kNames[static_cast<int>(test.param)]);
-    });
+std::string lamp_name(const ::testing::TestParamInfo<LampKind>& test) {
+  constexpr const char* kNames[] = {"point", "spot", "triangles", "glowing_glass"};
+  return kNames[static_cast<int>(test.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, LampTest,
+                         ::testing::Values(LampKind::point, LampKind::spot, LampKind::triangles,
+                                           LampKind::glowing_glass),
+                         lamp_name);
 
 // ---- A furnace
 

@@ -1,6 +1,7 @@
 // What the loader says of a scene's size before it allocates: all of it, and in time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "failure.hpp"
@@ -132,9 +133,12 @@ TEST(LoadGltfSize, HoldsAllTexturesBeforeAnyIsDecoded) {
       "materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                     {"emissiveFactor", {1, 1, 1}},
                     {"emissiveTexture", {{"index", 1}}}});
+  std::vector<std::uint16_t> noise(4800);  // which does not fit into the file's first bytes
+  std::uint32_t state = 1;
+  for (std::uint16_t& value : noise) value = static_cast<std::uint16_t>((state *= 48271) >> 8);
   for (int i = 0; i < 2; ++i) {
-    Bytes png = png_of(40, 30, std::vector<std::uint16_t>(4800, static_cast<std::uint16_t>(i)));
-    if (i == 1) png.resize(png.size() / 2);
+    Bytes png = png_of(40, 30, noise);
+    if (i == 1) std::fill_n(png.begin() + 1000, 2000, std::uint8_t{0x55});
     document.append("textures", {{"source", i}});
     document.append("images", {{"bufferView", document.view(png)}, {"mimeType", "image/png"}});
   }
