@@ -58,8 +58,10 @@ void Progress::passed(const Statistics& statistics, std::optional<double> second
   const Clock::time_point now = Clock::now();
   const bool due = last || now - last_ >= (terminal_ ? Clock::duration(kRewriteInterval)
                                                      : Clock::duration(kPlainInterval));
-  if (!due && (terminal_ || !std::has_single_bit(passes_done))) return;
+  const bool milestone = !terminal_ && passes_done >= milestone_;
+  if (!due && !milestone) return;
   last_ = now;
+  milestone_ = 2 * std::bit_floor(passes_done);
 
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double done = static_cast<double>(passes_done);

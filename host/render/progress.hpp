@@ -12,8 +12,8 @@
 namespace ppm::render {
 
 /// One line that is rewritten when stderr is a terminal, at most ten times a second; else a plain
-/// line after passes 1, 2, 4, 8 ... and the last, and whenever ten seconds went by without one.
-/// Silent when the log is quiet.
+/// line once passes 1, 2, 4, 8 ... and the last are done, and whenever ten seconds went by without
+/// one. Silent when the log is quiet.
 class Progress {
  public:
   /// `passes` there will be, if that is known.
@@ -38,6 +38,7 @@ class Progress {
   bool silent_, terminal_, line_open_ = false;
   std::optional<std::uint64_t> passes_;
   std::uint64_t pixels_;
+  std::uint64_t milestone_ = 1;  // passes at which a plain line is due
   Clock::time_point start_, last_;
 };
 

@@ -174,8 +174,11 @@ glm::dvec3 sky_texel(std::uint32_t column, std::uint32_t row) {
 }
 constexpr std::uint32_t kSkyHeight = 8;
 
+// Under a lamp, too, lest the sky be chosen always.
 scene::Scene plate_under_sky() {
-  scene::Scene scene = load(lit_plate());
+  GltfWriter writer = lit_plate();
+  writer.point_light(kLamp, kLampColor, 0.5);
+  scene::Scene scene = load(writer);
   scene::Environment sky;
   sky.name = "test";
   sky.width = 2 * kSkyHeight;
@@ -253,6 +256,23 @@ glm::dvec3 through_pane(double cosine) {
   return radiance;
 }
 
+// The panel halfway down in the glass: radiance that leaves it is divided by the squared index, and
+// what the face reflects back falls on black (glass_test.cpp).
+GltfWriter panel_in_pane() {
+  GltfWriter writer;
+  kPane.add_to(writer, 30.0);
+  const auto y = static_cast<float>(kPane.thickness / 2.0);
+  writer.mesh(quad({-29, y, -29}, {0, 0, 58}, {58, 0, 0}), writer.material(emitter(kRadiance)));
+  writer.camera("down", {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}, 2.0, 1.0, {0.0, 0.0, -1.0});
+  return writer;
+}
+
+glm::dvec3 out_of_pane(double cosine) {
+  const double length = kPane.thickness / 2.0 / refracted_cosine(cosine, kPane.ior);
+  return kRadiance * glm::pow(kPane.attenuation, glm::dvec3(length / kPane.distance)) *
+         ((1.0 - interface_reflectance(cosine, kPane.ior)) / (kPane.ior * kPane.ior));
+}
+
 // All within an absorbing solid; another that it outranks lies between lamp and plate.
 const glm::dvec3 kClarity(0.5, 0.2, 0.7);  // left after a length of 1
 
@@ -328,11 +348,17 @@ std::vector<AgreementScene> agreement_scenes() {
       {"coated_rectangle", 1, 1e-3, 32, [] { return load(rectangle(coated(emitter(kRadiance)))); },
        rectangles(through_coat)},
       {"sky", 0, 1e-3, 32, plate_under_sky,
-       [](Settings) { return everywhere(kAlbedo / kPi * from_sky()); }},
+       [](Settings) {
+         return plate_blocks_of([sky = from_sky()](glm::dvec2 p) {
+           return sky + 0.5 * kLampColor * cosine_over_square(kLamp, p);
+         });
+       }},
       {"mirror", 2, 1e-3, 32, [] { return load(mirrored_ceiling()); },
        [](Settings) { return plate_blocks(in_mirror); }},
       {"pane", 0, 1e-3, 32, panel_behind_pane,
        [](Settings settings) { return expected_blocks(settings, kAgreementBlock, through_pane); }},
+      {"panel_in_pane", 0, 1e-3, 8, [] { return load(panel_in_pane()); },
+       [](Settings settings) { return expected_blocks(settings, kAgreementBlock, out_of_pane); }},
       {"glass_all_around", 1, 1e-3, 32, [] { return load(plate_in_glass()); },
        [](Settings) { return plate_blocks(in_glass); }},
       {"veil", 0, 1e-3, 32, [] { return load(plate_under_veil()); },

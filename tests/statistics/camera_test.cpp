@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,46 @@ TEST(FilmSample, PowersOfTwoFillEveryElementaryInterval) {
       }
       EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), samples) << samples << " by " << columns;
     }
+  }
+}
+
+// However many there will be: each aligned 2^k of the sequence do so, and so does each one.
+TEST(FilmSample, SequencesFillEveryElementaryIntervalAgainAndAgain) {
+  Units units(35);
+  for (uint log = 0; log <= 8; ++log) {
+    const uint samples = 1u << log;
+    for (const uint first : {0u, samples, 7 * samples, 0xffffff00u & ~(samples - 1)}) {
+      const uvec2 shift(static_cast<uint>(units.next() * 4e9f),
+                        static_cast<uint>(units.next() * 4e9f));
+      std::vector<dvec2> points;
+      for (uint i = 0; i < samples; ++i) {
+        points.push_back(film_sample_in_sequence(PPM_FILTER_BOX, 0, 0, first + i, shift));
+      }
+      for (uint split = 0; split <= log; ++split) {
+        const double columns = 1u << split, rows = 1u << (log - split);
+        std::vector<int> hits(samples, 0);
+        for (const dvec2& p : points) {
+          const double column = std::min(std::floor(p.x * columns), columns - 1.0);
+          const double row = std::min(std::floor(p.y * rows), rows - 1.0);
+          ++hits[static_cast<std::size_t>(row * columns + column)];
+        }
+        EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), samples) << first << " by " << columns;
+      }
+    }
+  }
+}
+
+TEST(FilmSample, SamplesOfASequenceAreUniformOverThePixel) {
+  std::mt19937 words(36);
+  for (const uint index : {0u, 1u, 5u, 1000u}) {
+    const auto draw = [&]() -> dvec2 {
+      const uint first = static_cast<uint>(words());
+      return film_sample_in_sequence(PPM_FILTER_BOX, 0, 0, index,
+                                     uvec2(first, static_cast<uint>(words())));
+    };
+    statistics::expect_density(
+        statistics::Rectangles{{0.0, 0.0}, {kEdge, kEdge}}, 100000, draw,
+        [](dvec2) { return 1.0 / (kEdge * kEdge); }, "number " + std::to_string(index));
   }
 }
 

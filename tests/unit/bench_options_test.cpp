@@ -39,7 +39,7 @@ TEST(BenchOptions, DefaultsAreThoseThatFiguresAreGivenFor) {
   EXPECT_TRUE(options.scenes.empty());
   EXPECT_EQ(options.repetitions, 5u);
   EXPECT_EQ(options.warmup, 1u);
-  EXPECT_EQ(options.render.passes, 4u);
+  EXPECT_EQ(options.render.passes_or_usual(), 4u);
   EXPECT_FALSE(options.aged);
   EXPECT_FALSE(options.scaling);
   EXPECT_EQ(options.json, "");

@@ -100,6 +100,24 @@ TEST(MemoryPlan, GrowsWithThePicture) {
   EXPECT_LE(plan_of({}, settings).device_peak(), usual.device_peak() + 2 * kGiB);
 }
 
+TEST(MemoryPlan, FollowsTheMethod) {
+  const auto bytes_of = [](const MemoryPlan& plan, const char* name) {
+    std::uint64_t bytes = 0;
+    for (const auto& part : plan.parts) bytes += part.name == name ? part.bytes : 0;
+    return bytes;
+  };
+  render::Settings settings;
+  EXPECT_GT(bytes_of(plan_of({}, settings), "photons"), 0u);
+  EXPECT_EQ(bytes_of(plan_of({}, settings), "film"), 0u);
+  settings.integrator = "pt";
+  EXPECT_EQ(bytes_of(plan_of({}, settings), "photons"), 0u);
+  const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+  EXPECT_EQ(bytes_of(plan_of({}, settings), "film"), 72 * pixels);
+  settings.width = settings.height = 32768;
+  const std::string film = refusal(plan_of({}, settings), {4 * kGiB, 0, 0});
+  EXPECT_TRUE(contains(film, "make the picture smaller")) << film;
+}
+
 TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   const MemoryPlan triangles = plan_of({.triangles = 50000000});
   EXPECT_EQ(refusal(triangles, {std::nullopt, kPlenty, std::nullopt}), "");

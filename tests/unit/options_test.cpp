@@ -223,6 +223,30 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("--passes-in-flight", {"0", "17", "x"});
 }
 
+TEST(Options, SamplesAreThePassesOfMethodsThatTakeThem) {
+  for (const char* const method : {"pt", "pt-mis"}) {
+    EXPECT_EQ(accepted({"--integrator", method, "--spp", "100000"}).passes, 100000u);
+    EXPECT_EQ(accepted({"--passes", "9", "--integrator", method}).passes, 9u);
+    EXPECT_EQ(accepted({"--integrator", method}).passes_or_usual(), 64u);
+    expect_refused(
+        {"render", "s.glb", "-o", "o.exr", "--integrator", method, "--spp", "4", "--passes", "5"},
+        "--spp");
+    for (const char* const option : {"--photons", "--alpha", "--radius"}) {
+      const char* const value = option == std::string("--photons") ? "5" : "0.5";
+      expect_refused({"render", "s.glb", "-o", "o.exr", option, value, "--integrator", method},
+                     option);
+    }
+  }
+  EXPECT_FALSE(accepted({"--spp", "9"}).passes);
+}
+
+TEST(Options, TimesHaveUnits) {
+  for (const auto& [text, seconds] : std::vector<std::pair<const char*, double>>{
+           {"30", 30.0}, {"90s", 90.0}, {"0.5", 0.5}, {"10m", 600.0}, {"2h", 7200.0}}) {
+    EXPECT_EQ(accepted({"--time", text}).seconds, seconds);
+  }
+}
+
 TEST(Options, BrokenUsageIsRefused) {
   expect_refused({}, "no verb");
   expect_refused({"rendr"}, "rendr");
@@ -296,6 +320,9 @@ TEST(Options, HelpNamesEveryOption) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(help.find("(default 100000)"), std::string::npos);
+  for (const render::Method& method : render::methods()) {
+    EXPECT_NE(help.find(std::string(method.summary)), std::string::npos) << method.name;
+  }
 }
 
 }  // namespace
