@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "bench_command.hpp"
+#include "compare_command.hpp"
 #include "devices_command.hpp"
 #include "failure.hpp"
 #include "inspect_command.hpp"
@@ -19,6 +20,8 @@ int act(const ppm::cli::Options& options) {
   switch (options.verb) {
     case ppm::cli::Verb::render:
       return ppm::cli::render_command(options.render);
+    case ppm::cli::Verb::compare:
+      return ppm::cli::compare_command(options.compare);
     case ppm::cli::Verb::bench:
       return ppm::cli::bench_command(options.bench);
     case ppm::cli::Verb::inspect:

@@ -27,6 +27,17 @@ std::optional<glm::dvec3> parse_vector(std::string_view text) {
   return vector;
 }
 
+std::optional<double> parse_duration(std::string_view text) {
+  double unit = 1.0;
+  if (text.ends_with('s') || text.ends_with('m') || text.ends_with('h')) {
+    unit = text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : 3600.0;
+    text.remove_suffix(1);
+  }
+  const std::optional<double> value = parse_finite(text);
+  if (!value || *value <= 0.0 || *value * unit > 1e8) return std::nullopt;
+  return *value * unit;
+}
+
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
   return a.lexically_normal() == b.lexically_normal() || std::filesystem::equivalent(a, b, ignored);

@@ -29,6 +29,8 @@ std::optional<T> parse_number(std::string_view text) {
 
 std::optional<double> parse_finite(std::string_view text);
 std::optional<glm::dvec3> parse_vector(std::string_view text);
+/// "30", "30s", "1.5m", "2h" as seconds.
+std::optional<double> parse_duration(std::string_view text);
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench_options.hpp"
+#include "compare_options.hpp"
 #include "inspect_options.hpp"
 #include "render_options.hpp"
 
@@ -20,6 +21,7 @@ constexpr const char* kOverview =
     "ppm-vk renders glTF scenes by progressive photon mapping on Vulkan devices.\n"
     "\n"
     "  ppm-vk render SCENE.glb -o OUT.exr   render a scene\n"
+    "  ppm-vk compare SCENE.glb -o REPORT/  render it by several methods for the same time\n"
     "  ppm-vk bench [SCENE...]              measure how fast it renders\n"
     "  ppm-vk inspect SCENE.glb             say what a scene holds and what memory it takes\n"
     "  ppm-vk devices                       list the Vulkan devices and say which can serve\n"
@@ -96,6 +98,13 @@ Options parse_bench(const std::vector<std::string>& arguments) {
       [](const CLI::App& app, Options& options) { check_bench(app, options.bench); });
 }
 
+Options parse_compare(const std::vector<std::string>& arguments) {
+  return parse_verb(
+      Verb::compare, "compare", arguments,
+      [](CLI::App& app, Options& options) { declare_compare(app, options.compare); },
+      [](const CLI::App& app, Options& options) { check_compare(app, options.compare); });
+}
+
 Options parse_inspect(const std::vector<std::string>& arguments) {
   return parse_verb(
       Verb::inspect, "inspect", arguments,
@@ -108,6 +117,7 @@ Options parse_help(const std::vector<std::string>& arguments) {
     return usage_error(arguments[1] + ": one argument too many", "see ppm-vk help");
   if (arguments.empty() || arguments[0] == "help") return printed(kOverview);
   if (arguments[0] == "render") return parse_render({"--help"});
+  if (arguments[0] == "compare") return parse_compare({"--help"});
   if (arguments[0] == "bench") return parse_bench({"--help"});
   if (arguments[0] == "inspect") return parse_inspect({"--help"});
   if (arguments[0] == "devices") return printed(kDevicesHelp);
@@ -129,6 +139,7 @@ Options parse(int argc, const char* const* argv) {
   const std::string verb = argv[1];
   const std::vector<std::string> rest(argv + 2, argv + argc);
   if (verb == "render") return parse_render(rest);
+  if (verb == "compare") return parse_compare(rest);
   if (verb == "bench") return parse_bench(rest);
   if (verb == "inspect") return parse_inspect(rest);
   if (verb == "devices") return parse_devices(rest);

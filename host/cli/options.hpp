@@ -14,7 +14,7 @@
 
 namespace ppm::cli {
 
-enum class Verb { render, bench, inspect, devices, nothing };
+enum class Verb { render, compare, bench, inspect, devices, nothing };
 
 /// `ppm-vk render ...`, checked for all that can be checked without opening a file.
 struct RenderOptions {
@@ -59,6 +59,29 @@ struct BenchOptions {
   RenderOptions render;  ///< how each scene is rendered; `passes` are those timed a repetition
 };
 
+/// A method as `ppm-vk compare --methods` names it.
+struct NamedMethod {
+  std::string label;          ///< "ppm:alpha=0.8"
+  render::Settings settings;  ///< as RenderOptions::settings
+};
+
+/// `ppm-vk compare ...`, likewise.
+struct CompareOptions {
+  RenderOptions render;  ///< what all methods have in common; `seconds` are those of each
+  std::filesystem::path report;
+  std::vector<NamedMethod> methods;
+  unsigned seeds = 1;
+  std::filesystem::path reference;  ///< of the user; empty: it is made
+  std::optional<double> reference_seconds;
+  std::optional<NamedMethod> reference_method;
+  unsigned reference_seeds = 4;
+  std::vector<glm::uvec2> probes;
+  bool figure5 = false;
+  std::uint64_t figure_passes = 1024;
+  std::vector<glm::uvec4> crops;  ///< x, y, width, height
+  std::optional<double> exposure;
+};
+
 /// `ppm-vk inspect ...`: `render` says of which rendering the memory is reckoned.
 struct InspectOptions {
   RenderOptions render;
@@ -70,6 +93,7 @@ struct Options {
   int exit_code =
       0;  ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
   RenderOptions render;
+  CompareOptions compare;
   BenchOptions bench;
   InspectOptions inspect;
 };

@@ -4,10 +4,9 @@
 
 #include <chrono>
 #include <cstdio>
-#include <numbers>
 
+#include "circumstances.hpp"
 #include "driver.hpp"
-#include "failure.hpp"
 #include "load_gltf.hpp"
 #include "scene_settings.hpp"
 
@@ -22,32 +21,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-render::Circumstances circumstances_for(const scene::Scene& scene, const scene::LoadOptions& load,
-                                        const gpu::Device& device) {
-  render::Circumstances circumstances;
-  circumstances.program = "ppm-vk " PPM_VERSION;
-  circumstances.device = device.description().name;
-  circumstances.driver = device.description().driver;
-  circumstances.scene = scene.file;
-  circumstances.frame = scene.frame;
-  circumstances.load_attributes = {{"ppm-vk:luminous_efficacy", load.luminous_efficacy}};
-  if (scene.environment) {
-    const scene::Environment& environment = *scene.environment;
-    circumstances.load_attributes.insert(
-        circumstances.load_attributes.end(),
-        {{"ppm-vk:environment", std::filesystem::path(environment.name).filename().string()},
-         {"ppm-vk:environment_rotation", environment.rotation * 180.0 / std::numbers::pi},
-         {"ppm-vk:environment_strength", static_cast<double>(environment.strength)}});
-  }
-  circumstances.device_memory_bytes = [&device] { return device.peak_bytes(); };
-  return circumstances;
-}
-
 int exit_code(render::Outcome outcome, const gpu::Device& device) {
-  if (const std::uint64_t messages = device.validation_messages(); messages > 0) {
-    throw Failure(device.description().name, "--validate",
-                  fmt::format("{} validation messages", messages), "see the lines above");
-  }
+  check_validation(device);
   return outcome == render::Outcome::interrupted ? kInterrupted : 0;
 }
 

@@ -92,18 +92,6 @@ void declare_integrator(Declarer& declare, render::Settings& settings) {
   });
 }
 
-/// "30", "30s", "1.5m", "2h" as seconds.
-std::optional<double> parse_duration(std::string_view text) {
-  double unit = 1.0;
-  if (text.ends_with('s') || text.ends_with('m') || text.ends_with('h')) {
-    unit = text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : 3600.0;
-    text.remove_suffix(1);
-  }
-  const std::optional<double> value = parse_finite(text);
-  if (!value || *value <= 0.0 || *value * unit > 1e8) return std::nullopt;
-  return *value * unit;
-}
-
 }  // namespace
 
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes) {

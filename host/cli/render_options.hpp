@@ -13,6 +13,7 @@ void check_render(const CLI::App& app, RenderOptions& options);
 /// Groups of options; help names the defaults that `options` has, and says of --passes what they
 /// are.
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
+void declare_time(Declarer& declare, RenderOptions& options);
 void declare_camera(Declarer& declare, RenderOptions& options);
 void declare_lights(Declarer& declare, RenderOptions& options);
 void declare_memory(Declarer& declare, RenderOptions& options);

@@ -102,6 +102,15 @@ std::uint8_t srgb_byte(float radiance, double exposure) {
   return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
+std::string encode_png(std::uint32_t width, std::uint32_t height,
+                       std::span<const std::uint8_t> rgb) {
+  PPM_ASSERT(rgb.size() == std::size_t{3} * width * height && !rgb.empty(),
+             std::to_string(rgb.size()));
+  const OIIO::ImageSpec spec = spec_for(Format::png, {width, height, {}}, {});
+  const auto bytes = encode(Format::png, spec, rgb.data(), "PNG");
+  return {bytes.begin(), bytes.end()};
+}
+
 void write(const std::filesystem::path& file, const View& picture, double exposure,
            const std::vector<Attribute>& attributes) {
   const Format format = format_or_failure(file);

@@ -31,6 +31,10 @@ void check_writable(const std::filesystem::path& file);
 /// nearest; 0 for NaN.
 std::uint8_t srgb_byte(float radiance, double exposure);
 
+/// A whole PNG file of 8-bit sRGB codes, row-major from the top, 3 * width * height bytes.
+std::string encode_png(std::uint32_t width, std::uint32_t height,
+                       std::span<const std::uint8_t> rgb);
+
 /// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: 32-bit float
 /// channels R, G, B, ZIP, attributes; HDR: RGBE, negative and NaN as 0; PNG: 8 bits, srgb_byte. The
 /// same picture, attributes and exposure give the same bytes. Throws Failure naming the file.

@@ -1,10 +1,12 @@
 // What a method of light transport offers the driver.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +68,13 @@ struct Statistics {
 /// Complete state between passes: enough to go on as if never stopped.
 using SavedState = std::vector<std::uint8_t>;
 
+/// What a progressive method knows of a hit point [HOJ08 Figure 4].
+struct ProbeReading {
+  double photons = 0.0;              ///< N, a share alpha of all that were found
+  double radius = 0.0;               ///< R, world units
+  std::array<double, 3> radiance{};  ///< L by channel, Eq. 13
+};
+
 /// One rendering of one scene. Calls come in this order: prepare once (or restore), then any of the
 /// others.
 class Integrator {
@@ -93,6 +102,12 @@ class Integrator {
 
   /// The picture after the passes so far.
   virtual Picture resolve() = 0;
+
+  /// Of the hit point that weighs most in the pixel at column `x` and row `y` from the top left;
+  /// nothing where there is none or the method knows of none.
+  virtual std::optional<ProbeReading> probe(std::uint32_t /*x*/, std::uint32_t /*y*/) {
+    return std::nullopt;
+  }
 
   virtual SavedState save_state() = 0;
   /// Instead of prepare; throws Failure when the state does not belong to this scene and these

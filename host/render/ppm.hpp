@@ -2,8 +2,10 @@
 #pragma once
 
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "estimator.hpp"
@@ -28,6 +30,7 @@ class PpmIntegrator final : public Integrator {
   std::uint64_t advance_up_to(std::uint64_t passes,
                               const std::function<bool()>& interrupted) override;
   Picture resolve() override;
+  std::optional<ProbeReading> probe(std::uint32_t x, std::uint32_t y) override;
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
@@ -67,6 +70,13 @@ class PpmIntegrator final : public Integrator {
   void record_passes(std::uint32_t passes, double seconds);
   std::uint64_t fingerprint() const;
 
+  /// Where the statistics of a pixel's hit point are.
+  struct Probe {
+    std::size_t tile = 0;
+    std::uint32_t slot = 0;
+  };
+  std::optional<Probe> find_probe(std::uint32_t x, std::uint32_t y) const;
+
   Settings settings_;
   const scene::Scene& scene_;
   gpu::Device& device_;
@@ -87,6 +97,7 @@ class PpmIntegrator final : public Integrator {
   std::uint32_t chunk_paths_;  // paths traced at a time, at most
   std::uint32_t batch_limit_;  // passes recorded at a time, at most
   bool in_steps_ = false;      // the next pass: its searches are too long for a batch
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<Probe>> probes_;  // by x, y
   Statistics statistics_;
 };
 

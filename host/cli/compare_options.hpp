@@ -1,0 +1,14 @@
+// The options of `ppm-vk compare`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "options.hpp"
+
+namespace ppm::cli {
+
+void declare_compare(CLI::App& app, CompareOptions& options);
+/// What no option can tell alone, methods and their own options among it; throws CLI::ParseError.
+void check_compare(const CLI::App& app, CompareOptions& options);
+
+}  // namespace ppm::cli
