@@ -120,10 +120,12 @@ bool Run::start() {
                                     {"upload", "pipelines"},
                                     {"prepare", "eye"},
                                     {"prepare", "pilot"}}) {
-    parts[part] = statistics.seconds.at(part);
-    parts[whole] -= parts[part];
+    const auto seconds = statistics.seconds.find(part);
+    if (seconds == statistics.seconds.end()) continue;  // the method has no such part
+    parts[part] = seconds->second;
+    parts[whole] -= seconds->second;
   }
-  parts.erase("prepare");
+  if (parts.contains("eye")) parts.erase("prepare");  // nothing is left of it
   add_start(processor_seconds() - cpu, parts);
   const auto kernels = add_kernels("/start", prepared, 1.0);
   if (const auto eye = kernels.find("eye"); eye != kernels.end()) {
@@ -147,8 +149,8 @@ void Run::add_start(double cpu, const std::map<std::string, double>& parts) {
   count("initial_radius_least", statistics.initial_radius_min);
   count("initial_radius_median", statistics.initial_radius_median);
   count("initial_radius_most", statistics.initial_radius_max);
-  for (const char* part :
-       {"load", "device", "bvh", "pipelines", "upload", "eye", "pilot", "first pass", "resolve"}) {
+  for (const char* part : {"load", "device", "bvh", "pipelines", "upload", "prepare", "eye",
+                           "pilot", "first pass", "resolve"}) {
     const auto entry = parts.find(part);
     if (entry == parts.end()) continue;
     Row& part_row = rows_.add(fmt::format("{}/start:{}", subject_.name, part), entry->second);
@@ -198,6 +200,7 @@ void Run::add_pass_counters(Row& row, const render::Statistics& before, double s
   count("photons_emitted", before.photons_emitted, now.photons_emitted);
   count("photons_stored", before.photons_stored, now.photons_stored);
   count("photon_rays", before.photon_rays, now.photon_rays);
+  if (now.samples > before.samples) count("eye_rays", before.eye_rays, now.eye_rays);
   rows_.count(row, "passes_before", static_cast<double>(before.passes));
   rows_.count(row, "device_memory_bytes", static_cast<double>(device_->peak_bytes()));
   rows_.count(row, "host_memory_bytes", static_cast<double>(peak_memory_bytes()));

@@ -96,10 +96,14 @@ std::string extensions(const scene::Scene& scene) {
 
 std::string memory(const InspectReport& report) {
   const render::Settings& settings = report.settings;
-  std::string text = fmt::format(
-      "memory of a rendering at {} x {}, {} eye paths a pixel, {} photons a pass: {} at its peak\n",
-      settings.width, settings.height, settings.samples_per_pixel, settings.photons_per_pass,
-      render::size_text(report.memory.peak()));
+  const std::string method =
+      render::method_named(settings.integrator).unit == render::PassUnit::photons
+          ? fmt::format("{} eye paths a pixel, {} photons a pass", settings.samples_per_pixel,
+                        settings.photons_per_pass)
+          : "by " + settings.integrator;
+  std::string text =
+      fmt::format("memory of a rendering at {} x {}, {}: {} at its peak\n", settings.width,
+                  settings.height, method, render::size_text(report.memory.peak()));
   for (const render::MemoryPart& part : report.memory.parts) {
     if (part.bytes > 0) {
       text += fmt::format("  {}: {}\n", part.name, render::size_text(part.bytes));

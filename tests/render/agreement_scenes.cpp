@@ -174,10 +174,10 @@ glm::dvec3 sky_texel(std::uint32_t column, std::uint32_t row) {
 }
 constexpr std::uint32_t kSkyHeight = 8;
 
-// Under a lamp, too, lest the sky be chosen always.
+// Under a lamp of twice its power, too, lest the sky be chosen always.
 scene::Scene plate_under_sky() {
   GltfWriter writer = lit_plate();
-  writer.point_light(kLamp, kLampColor, 0.5);
+  writer.point_light(kLamp, kLampColor, 20.0);
   scene::Scene scene = load(writer);
   scene::Environment sky;
   sky.name = "test";
@@ -295,8 +295,8 @@ glm::dvec3 in_glass(glm::dvec2 p) {
          glm::pow(kClarity, glm::dvec3(length));
 }
 
-// Between lamp and plate, above the camera; beside them what glows only in the eye
-// (KHR_materials_unlit).
+// Between plate and lamp, and camera: each path passes it twice. Beside them what glows only in the
+// eye (KHR_materials_unlit).
 GltfWriter plate_under_veil() {
   GltfWriter writer = lit_plate();
   json poster = lambert(glm::dvec3(1.0));
@@ -305,7 +305,7 @@ GltfWriter plate_under_veil() {
   json veil = lambert(glm::dvec3(0.0));
   veil["alphaMode"] = "BLEND";
   veil["pbrMetallicRoughness"]["baseColorFactor"] = {0.0, 0.0, 0.0, 0.3};
-  writer.mesh(plate(0.4f, 0.8f), writer.material(veil));
+  writer.mesh(plate(0.15f, 0.8f), writer.material(veil));
   writer.point_light(kLamp, kLampColor, 3.0);
   return writer;
 }
@@ -350,7 +350,7 @@ std::vector<AgreementScene> agreement_scenes() {
       {"sky", 0, 1e-3, 32, plate_under_sky,
        [](Settings) {
          return plate_blocks_of([sky = from_sky()](glm::dvec2 p) {
-           return sky + 0.5 * kLampColor * cosine_over_square(kLamp, p);
+           return sky + 20.0 * kLampColor * cosine_over_square(kLamp, p);
          });
        }},
       {"mirror", 2, 1e-3, 32, [] { return load(mirrored_ceiling()); },
@@ -361,8 +361,9 @@ std::vector<AgreementScene> agreement_scenes() {
        [](Settings settings) { return expected_blocks(settings, kAgreementBlock, out_of_pane); }},
       {"glass_all_around", 1, 1e-3, 32, [] { return load(plate_in_glass()); },
        [](Settings) { return plate_blocks(in_glass); }},
-      {"veil", 0, 1e-3, 32, [] { return load(plate_under_veil()); },
-       plates([](glm::dvec2 p) { return 0.7 * 3.0 * kLampColor * cosine_over_square(kLamp, p); })},
+      {"veil", 0, 1e-3, 32, [] { return load(plate_under_veil()); }, plates([](glm::dvec2 p) {
+         return 0.7 * 0.7 * 3.0 * kLampColor * cosine_over_square(kLamp, p);
+       })},
   };
 }
 
