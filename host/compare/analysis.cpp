@@ -109,6 +109,15 @@ void summarise(MethodResult& result, const PictureMean& last_pictures) {
   }
 }
 
+double share_of_light(const MethodResult& result) {
+  double found = 0.0, there = 0.0;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    found += result.mean[channel].mean;
+    there += result.mean[channel].mean - result.mean_difference[channel].mean;
+  }
+  return there > 0.0 ? found / there : 1.0;
+}
+
 std::vector<Crop> crops_of_interest(const std::vector<std::vector<float>>& maps,
                                     std::uint32_t width, std::uint32_t height, unsigned count) {
   const std::uint32_t side = std::max(1u, std::min({width, height, std::max(16u, width / 6)}));

@@ -46,6 +46,12 @@ SeedResult measure_seed(const ReportFolder& folder, const std::string& run, RunR
 /// Fills in all but label, integrator, failure and seeds. `last_pictures`: of the seeds.
 void summarise(MethodResult& result, const PictureMean& last_pictures);
 
+/// The sum over pixels and channels that the method's last pictures have, as a share of the
+/// reference's; 1 where nothing can be said.
+double share_of_light(const MethodResult& result);
+/// What is less than this is told: the method misses light, or finds it too seldom.
+constexpr double kEnoughLight = 0.9;
+
 /// Medians over seeds of the k-th last picture, for all k that every seed has; ascending in x.
 /// `curves`: a seed each.
 std::vector<Sample> median_curve(const std::vector<std::vector<Sample>>& curves);

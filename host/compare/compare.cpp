@@ -1,5 +1,7 @@
 #include "compare.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <new>
@@ -124,6 +126,12 @@ Outcome compare(Stage& stage, const Plan& plan, const std::filesystem::path& pat
   if (!reference) return Outcome::interrupted;
 
   const auto results = measure_all(stage, plan, folder, *reference, failures);
+  for (const MethodResult& result : results) {
+    const double share = share_of_light(result);
+    if (result.seeds.empty() || share >= kEnoughLight) continue;
+    log.warn(fmt::format("{}: its pictures hold {:.3g} % of the reference's light", result.label,
+                         100.0 * share));
+  }
   write_report(folder, plan, results, *reference, figures, machine, failures);
   return failures.empty() ? Outcome::complete : Outcome::method_failed;
 }

@@ -40,10 +40,10 @@ double relative_epsilon(std::span<const float> reference) {
   std::uint64_t count = 0;
   for (const float value : reference) {
     if (!std::isfinite(value)) continue;
-    sum += square(value);
+    sum += value;
     ++count;
   }
-  return count > 0 ? 0.01 * sum / static_cast<double>(count) : 0.0;
+  return count > 0 ? square(0.1 * sum / static_cast<double>(count)) : 0.0;
 }
 
 Errors errors_of(std::span<const float> picture, std::span<const float> reference, double epsilon) {

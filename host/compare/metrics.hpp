@@ -25,9 +25,9 @@ struct Errors {
   std::uint64_t left_out = 0;  ///< values that are NaN or infinite in either picture
 };
 
-/// What keeps black pixels of the reference from counting for everything: a hundredth of the mean
-/// square of all its values, that is, the square of a tenth of its root mean square. Radiance
-/// squared; 0 where the reference is black.
+/// What keeps black pixels of the reference from counting for everything: the square of a tenth of
+/// the mean of all its values. (Of the mean and not of the root mean square, which a single lamp
+/// that is seen directly may decide.) Radiance squared; 0 where the reference is black.
 double relative_epsilon(std::span<const float> reference);
 
 /// Both of one size. `epsilon` is relative_epsilon of the reference; where it is 0 the relative

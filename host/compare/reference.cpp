@@ -96,7 +96,7 @@ std::optional<Choice> choose(Stage& stage, const ReportFolder& folder, const Pla
       findings += fmt::format("{} cannot: {}. ", candidate.label, failure.what());
     }
   }
-  return Choice{wanted.photons, findings + "Only photons find this light."};
+  return Choice{wanted.photons, findings + "It is photons that find this light."};
 }
 
 void add_error_bars(Reference& reference) {

@@ -58,7 +58,13 @@ std::string mean_sentence(const MethodResult& result) {
     if (result.seeds.size() > 1) text += fmt::format(" \xc2\xb1 {:.2g}", difference.standard_error);
   }
   const double mean = (result.mean[0].mean + result.mean[1].mean + result.mean[2].mean) / 3.0;
-  return text + fmt::format(" (its mean is {:.3g}).", mean);
+  text += fmt::format(" (its mean is {:.3g}).", mean);
+  if (const double share = share_of_light(result); share < kEnoughLight) {
+    text += fmt::format(
+        " It found {:.3g} % of the light: the rest it cannot see, or met too seldom for a mean.",
+        100.0 * share);
+  }
+  return text;
 }
 
 /// "As multiples of ppm's ..."
@@ -155,6 +161,17 @@ void add_table(PageContent& content, const std::vector<MethodResult>& results) {
       "method counts them. Effort is that of the first seed, errors are medians over seeds. Noise: "
       "what differs between seeds; bias: what is common to them, errors of the reference included "
       "(both root mean square, with two seeds or more).");
+  const bool has_ppm = std::any_of(results.begin(), results.end(), [](const MethodResult& result) {
+    return result.integrator == "ppm" || result.integrator == "pm";
+  });
+  if (has_ppm) {
+    content.table_notes.push_back(
+        "Methods of photon mapping trace their eye paths once (spp of them a pixel): what these "
+        "say "
+        "of small bright lights that are seen directly, in mirrors or through glass, and of edges, "
+        "stays as it is however many photons follow. Such pixels may decide the RMSE and count for "
+        "little in the trimmed error; more --spp makes them better.");
+  }
   for (const MethodResult& result : results) {
     if (!result.seeds.empty()) content.table_notes.push_back(mean_sentence(result));
   }

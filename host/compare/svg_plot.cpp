@@ -142,30 +142,26 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y) {
          dots;
 }
 
+std::size_t named_curves(const Plot& plot) {
+  return static_cast<std::size_t>(
+      std::count_if(plot.curves.begin(), plot.curves.end(),
+                    [](const Curve& curve) { return !curve.name.empty(); }));
+}
+
+/// Below the axes, where it hides nothing.
 std::string legend(const Plot& plot) {
   std::string entries;
-  double at = kTop + 14;
-  std::size_t longest = 0;
-  for (const Curve& curve : plot.curves) {
-    if (curve.name.empty()) continue;
-    longest = std::max(longest, curve.name.size() + curve.note.size() + 1);
-  }
-  if (longest == 0) return "";
-  const double x = kWidth - kRight - 36 - 6.2 * static_cast<double>(longest);
+  double at = kHeight + 6;
   for (const Curve& curve : plot.curves) {
     if (curve.name.empty()) continue;
     entries += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"curve\" "
         "stroke=\"{}\"/>\n",
-        x, at - 4, x + 20, at - 4, curve_colour(curve.colour));
-    entries += text_at(x + 25, at, "start", curve.name + " " + curve.note);
+        kLeft, at - 4, kLeft + 20, at - 4, curve_colour(curve.colour));
+    entries += text_at(kLeft + 26, at, "start", curve.name + " " + curve.note);
     at += kLegendLine;
   }
-  return fmt::format(
-             "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-             "class=\"legend\"/>\n",
-             x - 5, kTop + 1, kWidth - kRight - x + 4, at - kTop - kLegendLine + 6) +
-         entries;
+  return entries;
 }
 
 }  // namespace
@@ -190,8 +186,9 @@ std::string svg_plot(const Plot& plot) {
   x.settle();
   y.settle();
 
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
-                                kWidth, kHeight, escape_html(plot.title));
+  std::string svg = fmt::format(
+      "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", kWidth,
+      kHeight + kLegendLine * static_cast<double>(named_curves(plot)), escape_html(plot.title));
   svg += axes(plot, x, y);
   for (const Level& level : plot.levels) {
     if (!y.takes(level.y)) continue;

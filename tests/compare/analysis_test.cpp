@@ -43,6 +43,15 @@ TEST(CompareAnalysis, MediansAreOverSeeds) {
   EXPECT_FALSE(result.noise);
 }
 
+TEST(CompareAnalysis, LightThatAMethodMissesIsAShareOfTheReferences) {
+  MethodResult result;
+  EXPECT_EQ(share_of_light(result), 1.0);
+  // The reference has 2, 4 and 2; the method 1, 1 and 2.
+  result.mean = {Estimate{1.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
+  result.mean_difference = {Estimate{-1.0, 0.0}, {-3.0, 0.0}, {0.0, 0.0}};
+  EXPECT_DOUBLE_EQ(share_of_light(result), 0.5);
+}
+
 TEST(CompareAnalysis, CurvesOfDifferentLengthMeetAtTheirEnds) {
   const std::vector<Sample> curve =
       median_curve({{{1.0, 8.0}, {2.0, 4.0}, {4.0, 2.0}}, {{2.0, 6.0}, {5.0, 3.0}}});

@@ -16,9 +16,9 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 TEST(Metrics, ErrorsOfTwoPixels) {
   const std::vector<float> reference = {1.0f, 2.0f, 0.0f, 1.0f, 2.0f, 4.0f};
   const std::vector<float> picture = {2.0f, 2.0f, 0.0f, 1.0f, 0.0f, 7.0f};
-  // Mean square of the reference: (1 + 4 + 0 + 1 + 4 + 16) / 6 = 26 / 6.
+  // Mean of the reference: (1 + 2 + 0 + 1 + 2 + 4) / 6 = 10 / 6.
   const double epsilon = relative_epsilon(reference);
-  EXPECT_DOUBLE_EQ(epsilon, 0.01 * 26.0 / 6.0);
+  EXPECT_DOUBLE_EQ(epsilon, 0.01 * 100.0 / 36.0);
   const Errors errors = errors_of(picture, reference, epsilon);
   EXPECT_DOUBLE_EQ(errors.rmse, std::sqrt((1.0 + 4.0 + 9.0) / 6.0));
   EXPECT_DOUBLE_EQ(errors.relative_mse,
