@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "device_fixture.hpp"
 #include "photon_tracer.hpp"
@@ -53,13 +55,13 @@ constexpr float kGap = 0.025f;      // between the mirrors z = 0 and z = kGap
 constexpr float kSource = 0.0125f;  // height of the lamp
 constexpr float kLength = 1.9f;     // from the lamp at x = -0.95 to the screen at x = 0.95
 
-// Two finely tessellated mirrors and a diffuse screen; the lamp shines obliquely between them.
-scene::Scene corridor() {
+// Two mirrors of so many rectangles and a diffuse screen; the lamp shines obliquely between them.
+scene::Scene corridor(int columns, int rows) {
   scene::Scene scene;
   scene.materials = {mirror_material(), diffuse_material(0.0f)};
   scene.materials[1].base_color = vec3(1e-3f);  // takes photons, sends next to none on
-  add_plate(scene, {-1, -0.5f, 0}, {2, 0, 0}, {0, 1, 0}, 0, 320, 160);
-  add_plate(scene, {-1, -0.5f, kGap}, {2, 0, 0}, {0, 1, 0}, 0, 320, 160);
+  add_plate(scene, {-1, -0.5f, 0}, {2, 0, 0}, {0, 1, 0}, 0, columns, rows);
+  add_plate(scene, {-1, -0.5f, kGap}, {2, 0, 0}, {0, 1, 0}, 0, columns, rows);
   add_plate(scene, {0.95f, -0.5f, -0.01f}, {0, 1, 0}, {0, 0, 0.05f}, 1);
   scene::PunctualLight lamp;
   lamp.kind = scene::PunctualKind::spot;
@@ -73,7 +75,7 @@ scene::Scene corridor() {
 }
 
 TEST_F(PhotonPaths, BouncesThroughALargeMeshAsUnfoldedStraightLines) {
-  const scene::Scene scene = corridor();
+  const scene::Scene scene = corridor(320, 160);
   ASSERT_GT(scene.triangles.size(), 100000u);
   for (const std::uint32_t paths : {1000u, 6000u}) {  // few a dispatch follows for longer
     const Result result = trace(scene, paths);
@@ -98,6 +100,35 @@ TEST_F(PhotonPaths, BouncesThroughALargeMeshAsUnfoldedStraightLines) {
     }
     EXPECT_EQ(arrived, paths);
     EXPECT_GT(checked, paths * 9 / 10);
+  }
+}
+
+// The window of a lamp's range dims the first segment, and none of the sixty that follow, although
+// they are longer: photons beside those of a lamp without a limit, path by path.
+TEST_F(PhotonPaths, ARangeIsThatOfTheFirstSegment) {
+  constexpr float kRange = 0.05f;
+  constexpr std::uint32_t kPaths = 1000;  // few: a dispatch follows them for several bounces
+  scene::Scene scene = corridor(4, 2);
+  const auto arrivals = [&](float range) {
+    scene.punctual_lights.front().range = range;
+    std::vector<Photon> photons = trace(scene, kPaths).photons;
+    std::erase_if(photons, [](const Photon& photon) { return photon.events < 60; });
+    std::ranges::sort(photons, {}, [](const Photon& p) {
+      return std::array{p.position.y, p.position.z};
+    });
+    return photons;
+  };
+  const auto limited = arrivals(kRange);
+  const auto unlimited = arrivals(std::numeric_limits<float>::infinity());
+  ASSERT_EQ(limited.size(), kPaths);
+  ASSERT_EQ(unlimited.size(), kPaths);
+  for (std::size_t i = 0; i < kPaths; ++i) {
+    ASSERT_EQ(limited[i].position, unlimited[i].position);
+    const vec3 way = limited[i].incident;
+    const double first = (kGap - kSource) / std::abs(static_cast<double>(way.z));
+    const double window = 1.0 - std::pow(first / kRange, 4.0);
+    // Directions and fluxes are packed to 4e-5.
+    EXPECT_NEAR(limited[i].flux.x / unlimited[i].flux.x, window, 2e-4);
   }
 }
 
