@@ -47,6 +47,10 @@ void Film::bind(gpu::BindingTable& table) const {
   for (std::size_t i = 0; i < planes_.size(); ++i) table.set(kBindings[i], planes_[i]);
 }
 
+void Film::bind_sums(gpu::BindingTable& table, std::uint32_t first_binding) const {
+  for (const gpu::Buffer& plane : planes_) table.set(first_binding++, plane);
+}
+
 void Film::clear() {
   device_.run([&](gpu::Recorder& recorder) {
     for (const gpu::Buffer& plane : planes_) recorder.fill(plane, 0, plane.bytes());

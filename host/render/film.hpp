@@ -20,6 +20,8 @@ class Film {
   Film(gpu::Device& device, const shared::SceneConstants& scene);
 
   void bind(gpu::BindingTable& table) const;
+  /// The sums alone, as three buffers from this binding on, beside another film.
+  void bind_sums(gpu::BindingTable& table, std::uint32_t first_binding) const;
   void clear();
 
   /// Remembers what there is now, and goes back to it: for a pass that may have to be discarded.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "bdpt.hpp"
 #include "failure.hpp"
 #include "memory_plan.hpp"
+#include "mlt.hpp"
 #include "path_tracer.hpp"
 #include "ppm.hpp"
 #include "scene_buffers.hpp"
@@ -36,6 +38,15 @@ constexpr Entry kIntegrators[] = {
     {{"pt-mis", "the same, with multiple importance sampling", PassUnit::samples, ""},
      create<PathTracer>,
      path_tracer_memory},
+    {{"bdpt", "bidirectional path tracing", PassUnit::samples, ""},
+     create<BdptIntegrator>,
+     bdpt_memory},
+    {{"lt", "light tracing: what light paths show the lens", PassUnit::samples, ""},
+     create<BdptIntegrator>,
+     bdpt_memory},
+    {{"mlt", "Metropolis light transport over bidirectional samples", PassUnit::mutations, ""},
+     create<MltIntegrator>,
+     mlt_memory},
 };
 
 const Entry& entry_named(std::string_view name) {

@@ -32,6 +32,10 @@ struct Settings {
   Filter filter = Filter::box;
   std::uint32_t seed = 0;
   std::uint32_t max_depth = 0;  ///< 0: no limit; at most 255
+  std::uint32_t bdpt_strategies =
+      15;  ///< ways in which paths may meet, for tests: 1 emitters that the camera path hits, 2
+           ///< next event, 4 connections, 8 lens
+  std::uint32_t mlt_chains = 0;  ///< 0: what suits the device and the picture
   scene::Camera camera;
   std::uint64_t tile_hits =
       1u << 20;  ///< hit points a tile holds at most; never changes the picture

@@ -36,6 +36,8 @@ struct MemoryPlan {
 std::vector<MemoryPart> method_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassLimits& limits);
+std::vector<MemoryPart> bdpt_memory(const Settings& settings, const PassLimits& limits);
+std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& limits);
 
 /// An estimate: counts and sizes of records are exact, what rays will find is not (1.25 hit points
 /// are reckoned with for each eye path, 0.4 nodes for each triangle).

@@ -85,6 +85,13 @@ struct BidirectionalPush {
   uint chains;        // idem, all of them
 };                    // 52
 
+// Roulette: the probability with which a path goes on whose throughput an event has multiplied by
+// `ratio`. Light that is caught between surfaces which absorb nothing gets out or is given up.
+#define PPM_BDPT_PATIENCE 24u  // events
+PPM_FN float path_survival(float ratio, uint events) {
+  return min(ratio, events < PPM_BDPT_PATIENCE ? 1.0f : 0.9f);
+}
+
 // ---- Weights
 // --------------------------------------------------------------------------------------------
 

@@ -82,7 +82,26 @@
 #define PPM_BIND_FILM_GREEN 51
 #define PPM_BIND_FILM_BLUE 52
 
-#define PPM_BINDING_LIMIT 72
+// Bidirectional path tracing (shared/bidirectional.h); its paths are PATHS_IN and PATHS_OUT.
+#define PPM_BIND_LIGHT_VERTICES 60   // PathVertex, 4 texels each
+#define PPM_BIND_CAMERA_VERTICES 61  // PathVertex, 4 texels each
+#define PPM_BIND_LIGHT_HEADS 62      // uint a path: its light vertex that was stored last
+#define PPM_BIND_VERTEX_PAIRS 63     // uvec2: a camera and a light vertex
+#define PPM_BIND_LENS_SPLATS 64      // LensSplat of each light vertex
+
+// Markov chains (shared/markov_chain.h).
+#define PPM_BIND_CHAIN_WORDS 65   // uvec4: block by block, of each chain
+#define PPM_BIND_CHAIN_STARTS 66  // uint: number of the sample that each chain starts with
+#define PPM_BIND_CHAINS 67        // Chain
+#define PPM_BIND_SPLATS_IN 68     // LensSplat: of the chains' states
+#define PPM_BIND_SPLATS_OUT 69
+#define PPM_BIND_SPLAT_COUNT 70  // uint
+#define PPM_BIND_LUMINANCES 71   // float: of independent samples
+#define PPM_BIND_CHAIN_RED 72    // FilmSum: of each chain's proposal
+#define PPM_BIND_CHAIN_GREEN 73
+#define PPM_BIND_CHAIN_BLUE 74
+
+#define PPM_BINDING_LIMIT 80
 
 // Specialisation constants that the device's profile sets in every kernel that declares them
 // (host/gpu/device_profile.hpp). Kernels' own ones are below.

@@ -61,7 +61,9 @@ struct CameraImportance {
 // For paths that reach the camera from the scene; `direction` leaves the camera. (A lens connection
 // multiplies by the cosine at the camera: importance * cosine = pdf_solid_angle.) No path meets an
 // orthographic camera by chance.
-PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) {
+// `margin`: how far around the picture the film reaches, in pixels.
+PPM_FN CameraImportance camera_importance_around(SceneConstants scene, vec3 direction,
+                                                 float margin) {
   CameraImportance result;
   result.film = vec2(0.0f);
   result.importance = 0.0f;
@@ -70,12 +72,16 @@ PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) 
   if (cosine <= 0.0f || scene.camera_kind == PPM_CAMERA_ORTHOGRAPHIC) return result;
   float x = dot(direction, scene.camera_right) / (cosine * scene.camera_tan_half_x);
   float y = dot(direction, scene.camera_up) / (cosine * scene.camera_tan_half_y);
-  if (abs(x) > 1.0f || abs(y) > 1.0f) return result;
+  if (abs(x) > 1.0f + 2.0f * margin / float(scene.width)) return result;
+  if (abs(y) > 1.0f + 2.0f * margin / float(scene.height)) return result;
   result.film =
       vec2((x + 1.0f) * 0.5f * float(scene.width), (1.0f - y) * 0.5f * float(scene.height));
   result.pdf_solid_angle = 1.0f / pixel_solid_angle(scene, direction);
   result.importance = result.pdf_solid_angle / cosine;
   return result;
+}
+PPM_FN CameraImportance camera_importance(SceneConstants scene, vec3 direction) {
+  return camera_importance_around(scene, direction, 0.0f);
 }
 
 PPM_FN uint reversed_bits(uint bits) {
@@ -134,6 +140,31 @@ PPM_FN vec2 film_sample_in_sequence(uint filter_kind, uint x, uint y, uint sampl
   float b = unit_from_word(second_sobol_word(sample_index) ^ shift.y);
   return vec2(float(x) + 0.5f + sample_filter(filter_kind, a),
               float(y) + 0.5f + sample_filter(filter_kind, b));
+}
+
+// Light that meets the film at some place counts in every pixel whose filter reaches it. One of
+// them, along one axis: chosen in proportion to its filter's value there, `weight` being the sum of
+// all. `u` uniform.
+struct FilterChoice {
+  int pixel;
+  float weight;
+};
+
+PPM_FN FilterChoice choose_filter(uint filter_kind, float film, float u) {
+  float middle = floor(film);
+  float below = filter_value(filter_kind, film - middle + 0.5f);
+  float within = filter_value(filter_kind, film - middle - 0.5f);
+  float above = filter_value(filter_kind, film - middle - 1.5f);
+  FilterChoice choice;
+  choice.weight = below + within + above;
+  float chosen = u * choice.weight;
+  choice.pixel = int(middle);
+  if (chosen < below) {
+    choice.pixel -= 1;
+  } else if (chosen >= below + within && above > 0.0f) {
+    choice.pixel += 1;
+  }
+  return choice;
 }
 
 // Pixels are numbered in blocks of 8 x 8 (bands of 8 rows, blocks from left to right), whole blocks

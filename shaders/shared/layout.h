@@ -200,7 +200,10 @@ struct SceneConstants {
   11                            // segments of eye paths, in dispatches that follow them for several
 #define PPM_COUNTER_CROWDED 12  // hit points with too many photons in cells larger than wanted
 #define PPM_COUNTER_SEARCHES 13  // that gather_slices.comp goes on with
-#define PPM_COUNTER_COUNT 16
+#define PPM_COUNTER_LIGHT_VERTICES 20
+#define PPM_COUNTER_CAMERA_VERTICES 21
+#define PPM_COUNTER_VERTEX_PAIRS 22
+#define PPM_COUNTER_COUNT 24
 
 // ---- Batches of photon passes
 // ------------------------------------------------------------------------------------------

@@ -16,6 +16,10 @@ PPM_NAMESPACE_BEGIN
 #define PPM_STREAM_PHOTON 2u
 #define PPM_STREAM_PILOT 3u
 #define PPM_STREAM_PATH 4u
+#define PPM_STREAM_LIGHT_PATH 16u
+#define PPM_STREAM_CAMERA_PATH 17u
+#define PPM_STREAM_CONNECTION 18u
+#define PPM_STREAM_CHAIN 19u
 
 PPM_FN uvec4 philox_4x32_10(uvec4 counter, uvec2 key) {
   for (int round_index = 0; round_index < 10; ++round_index) {

@@ -98,6 +98,17 @@ PPM_FN float sample_filter(uint kind, float u) {
   return u - 0.5f;
 }
 
+// The filter itself at an offset from the pixel's centre: the density of sample_filter.
+PPM_FN float filter_value(uint kind, float offset) {
+  float size = abs(offset);
+  if (kind == PPM_FILTER_TENT) return max(1.0f - size, 0.0f);
+  if (kind == PPM_FILTER_GAUSSIAN) {
+    // 1 / (0.5 sqrt(2 pi) * 0.99730020)
+    return size < 1.5f ? 0.80004450f * exp(-2.0f * size * size) : 0.0f;
+  }
+  return size <= 0.5f ? 1.0f : 0.0f;
+}
+
 PPM_NAMESPACE_END
 
 #endif  // PPM_SHARED_WARP_H

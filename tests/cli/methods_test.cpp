@@ -56,7 +56,7 @@ TEST_F(CliMethods, SamplesAreCountedAsSamples) {
 }
 
 TEST_F(CliMethods, TimeAndPassesEndARendering) {
-  for (const char* const method : {"ppm", "pt-mis"}) {
+  for (const char* const method : {"ppm", "pt-mis", "bdpt", "mlt"}) {
     SCOPED_TRACE(method);
     EXPECT_EQ(run(words(method, {"-o", file("o.exr"), "--time", "0.3s"})).exit_code, 0);
     EXPECT_GE(statistics()["passes"], 1);

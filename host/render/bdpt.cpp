@@ -1,0 +1,128 @@
+#include "bdpt.hpp"
+
+#include <algorithm>
+
+#include "failure.hpp"
+#include "film_state.hpp"
+#include "fingerprint.hpp"
+#include "stopwatch.hpp"
+
+namespace ppm::render {
+namespace {
+
+SceneTraits traits_with_segments(const scene::Scene& scene, const SceneBuffers& buffers) {
+  SceneTraits traits = traits_of(scene);
+  buffers.add_segments(traits);
+  return traits;
+}
+
+gpu::BindingTable table_of(const SceneBuffers& buffers, const Film& film) {
+  gpu::BindingTable table;
+  buffers.bind(table);
+  film.bind(table);
+  return table;
+}
+
+std::uint32_t ways_of(const Settings& settings, const scene::Scene& scene) {
+  if (settings.integrator != "lt") return settings.bdpt_strategies;
+  if (settings.camera.ymag) {
+    throw Failure(scene.file, "--integrator lt", "no light meets an orthographic camera's lens",
+                  "choose a perspective camera, or bdpt");
+  }
+  return PPM_BDPT_LENS;
+}
+
+}  // namespace
+
+BdptIntegrator::BdptIntegrator(const Settings& settings, const scene::Scene& scene,
+                               gpu::Device& device, Log&, unsigned threads)
+    : settings_(settings),
+      scene_(scene),
+      device_(device),
+      buffers_(scene, settings, device, threads),
+      traits_(traits_with_segments(scene, buffers_)),
+      film_(device, buffers_.constants()),
+      table_(table_of(buffers_, film_)),
+      sampler_(device, table_, traits_, settings, ways_of(settings, scene)),
+      tile_paths_(sampler_.path_capacity()) {
+  statistics_.seconds["bvh"] = buffers_.bvh_seconds();
+  statistics_.seconds["upload"] = buffers_.upload_seconds();
+  statistics_.triangles = scene.triangles.size();
+  statistics_.lights = buffers_.light_count();
+  require_light(buffers_, scene);
+}
+
+bool BdptIntegrator::prepare(const std::function<bool()>& interrupted) {
+  return !interrupted();
+}
+
+bool BdptIntegrator::advance(const std::function<bool()>& interrupted) {
+  const double start = clock_seconds();
+  const std::uint32_t pixels = settings_.width * settings_.height;
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  const Statistics before = statistics_;
+  for (std::uint32_t first = 0; first < pixels;) {
+    const std::uint32_t paths = std::min(tile_paths_, pixels - first);
+    const BidirectionalSampler::Result result = sampler_.trace({pass, first, paths}, interrupted);
+    if (result == BidirectionalSampler::Result::overflow) {
+      if (paths == 1) {
+        throw Failure("", "--max-depth", "the sub-paths of one sample do not fit", "limit it");
+      }
+      tile_paths_ = (paths + 1) / 2;
+      continue;
+    }
+    if (result == BidirectionalSampler::Result::interrupted) {
+      if (first > 0) film_.revert();
+      statistics_ = before;
+      return false;
+    }
+    if (first == 0 && paths < pixels) film_.keep();
+    sampler_.deposit();
+    record(sampler_.counters());
+    first += paths;
+  }
+  ++statistics_.passes;
+  statistics_.samples = statistics_.passes;
+  statistics_.pass_seconds.push_back(clock_seconds() - start);
+  return true;
+}
+
+void BdptIntegrator::record(const Counters& counters) {
+  statistics_.eye_rays += counters[PPM_COUNTER_EYE_RAYS];
+  statistics_.photon_rays += counters[PPM_COUNTER_PHOTON_RAYS];
+  statistics_.paths_cut += counters[PPM_COUNTER_PATHS_CUT];
+  statistics_.rejected["non_finite"] += counters[PPM_COUNTER_NON_FINITE];
+  statistics_.rejected["clamped"] += counters[PPM_COUNTER_CLAMPED];
+  statistics_.rejected["overflow"] += counters[PPM_COUNTER_OVERFLOW];
+}
+
+Picture BdptIntegrator::resolve() {
+  const Stopwatch stopwatch(statistics_.seconds["resolve"]);
+  return film_.resolve(static_cast<double>(std::max<std::uint64_t>(statistics_.passes, 1)));
+}
+
+std::uint64_t BdptIntegrator::fingerprint() const {
+  Hash hash;
+  hash.add(settings_.integrator.data(), settings_.integrator.size());
+  hash.add(static_cast<std::uint32_t>(settings_.filter));
+  hash.add(&buffers_.constants(), sizeof(shared::SceneConstants));
+  add_scene(hash, scene_);
+  return hash.value();
+}
+
+SavedState BdptIntegrator::save_state() {
+  return save_film(film_, {fingerprint(), statistics_.passes});
+}
+
+void BdptIntegrator::restore_state(const SavedState& state) {
+  statistics_.passes = statistics_.samples = restore_film(film_, state, fingerprint());
+}
+
+const Statistics& BdptIntegrator::statistics() {
+  for (const auto& [kernel, time] : device_.times()) {
+    statistics_.kernel_seconds[kernel] = time.seconds;
+  }
+  return statistics_;
+}
+
+}  // namespace ppm::render

@@ -1,0 +1,35 @@
+#include "film_state.hpp"
+
+#include <cstring>
+
+#include "failure.hpp"
+
+namespace ppm::render {
+namespace {
+
+[[noreturn]] void refuse(const char* why) {
+  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
+}
+
+}  // namespace
+
+SavedState save_film(const Film& film, const FilmState& header) {
+  const std::vector<std::uint32_t> sums = film.save();
+  SavedState state(sizeof header + sums.size() * sizeof sums[0]);
+  std::memcpy(state.data(), &header, sizeof header);
+  std::memcpy(state.data() + sizeof header, sums.data(), state.size() - sizeof header);
+  return state;
+}
+
+std::uint64_t restore_film(Film& film, const SavedState& state, std::uint64_t fingerprint) {
+  FilmState header;
+  if (state.size() < sizeof header) refuse("truncated");
+  std::memcpy(&header, state.data(), sizeof header);
+  if (header.fingerprint != fingerprint) refuse("of another scene or other options");
+  std::vector<std::uint32_t> sums((state.size() - sizeof header) / sizeof(std::uint32_t));
+  std::memcpy(sums.data(), state.data() + sizeof header, sums.size() * sizeof sums[0]);
+  if (!film.restore(sums)) refuse("truncated");
+  return header.passes;
+}
+
+}  // namespace ppm::render
