@@ -24,6 +24,7 @@ std::string remedy_for(const render::MemoryPlan& plan) {
     return "make the picture smaller";
   }
   if (largest == "photons") return "lower --photons";
+  if (largest == "photon map") return "lower --map-photons";
   return "simplify meshes or use fewer instances";
 }
 

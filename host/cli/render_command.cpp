@@ -58,7 +58,8 @@ int render_command(const RenderOptions& options) {
   circumstances.load_seconds = load_seconds;
   circumstances.seconds_before = seconds_since(start);
   render::Budget budget{options.passes, options.seconds};
-  if (!options.seconds) budget.passes = options.passes_or_usual();
+  const bool bounded = options.seconds || render::method_named(settings.integrator).ends_itself;
+  if (!bounded) budget.passes = options.passes_or_usual();
   const render::Outcome outcome =
       render::drive(*integrator, settings, budget, outputs, circumstances, interruption, log);
   return exit_code(outcome, device);

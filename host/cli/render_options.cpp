@@ -46,7 +46,8 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
 void declare_radius(Declarer& declare, render::Settings& settings) {
   declare.text("--radius", "R|auto|footprint",
                "initial radius in scene units; auto: by a discarded pilot pass, for each\n"
-               "hit point; footprint: from the pixel's footprint (default auto)",
+               "hit point; footprint: from the pixel's footprint (default auto);\n"
+               "pm: the largest, auto: a quarter of the scene's",
                [&](const std::string& value) {
                  if (value == "auto") {
                    settings.radius_mode = render::RadiusMode::automatic;
@@ -59,6 +60,15 @@ void declare_radius(Declarer& declare, render::Settings& settings) {
                    throw refusal("--radius", value, "a positive number, auto or footprint");
                  }
                });
+}
+
+void declare_photon_map(Declarer& declare, render::Settings& settings) {
+  declare.whole<std::uint64_t>(
+      "--map-photons", settings.map_photons, 1, 20000000,
+      fmt::format("pm: photons stored at most (default {})", settings.map_photons));
+  declare.whole<std::uint32_t>(
+      "--nearest", settings.nearest, 1, 1000000,
+      fmt::format("pm: photons that an estimate is made of (default {})", settings.nearest));
 }
 
 void declare_filter(Declarer& declare, render::Settings& settings) {
@@ -112,6 +122,7 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
         return single > 0.0f && single < 1.0f;
       });
   declare_radius(declare, settings);
+  declare_photon_map(declare, settings);
   declare.whole<std::uint32_t>(
       "--spp", settings.samples_per_pixel, 1, kMany,
       fmt::format("eye paths a pixel, stratified (default {}); methods whose\n"

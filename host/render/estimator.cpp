@@ -4,6 +4,7 @@
 
 #include "ppm_shaders.hpp"
 #include "region.hpp"
+#include "shared/camera.h"
 #include "shared/layout.h"
 #include "shared/ppm.h"
 
@@ -144,6 +145,23 @@ std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t sam
     } while (skip < tile.max_pixel_hits);
   });
   return pixels.download<glm::vec4>(tile.pixels);
+}
+
+Picture Estimator::picture(std::span<const HitTile> tiles, const Settings& settings, float scale) {
+  Picture picture{settings.width, settings.height,
+                  std::vector<float>(3ull * settings.width * settings.height, 0.0f)};
+  for (const HitTile& tile : tiles) {
+    const std::vector<glm::vec4> pixels = resolve(tile, settings.samples_per_pixel, scale);
+    for (std::uint32_t i = 0; i < tile.pixels; ++i) {
+      const glm::uvec2 at =
+          shared::pixel_position(tile.first_pixel + i, settings.width, settings.height);
+      float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings.width + at.x)];
+      rgb[0] = pixels[i].x;
+      rgb[1] = pixels[i].y;
+      rgb[2] = pixels[i].z;
+    }
+  }
+  return picture;
 }
 
 void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footprints) {

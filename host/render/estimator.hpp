@@ -11,6 +11,7 @@
 #include "counters.hpp"
 #include "device_batch.hpp"
 #include "hit_tile.hpp"
+#include "integrator.hpp"
 #include "photon_grid.hpp"
 #include "search_order.hpp"
 
@@ -51,6 +52,9 @@ class Estimator {
   /// Radiance of the tile's pixels, in their order, 4 floats each [HOJ08 Eq. 13].
   /// scale: total power / photons emitted.
   std::vector<glm::vec4> resolve(const HitTile& tile, std::uint32_t samples, float scale);
+
+  /// The picture that the tiles make. scale: idem.
+  Picture picture(std::span<const HitTile> tiles, const Settings& settings, float scale);
 
   /// Cell size that suits the radii as of the last update (or of `set_radii`), working units; 0
   /// without hit points.

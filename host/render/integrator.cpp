@@ -7,6 +7,7 @@
 #include "memory_plan.hpp"
 #include "mlt.hpp"
 #include "path_tracer.hpp"
+#include "pm.hpp"
 #include "ppm.hpp"
 #include "scene_buffers.hpp"
 
@@ -47,6 +48,10 @@ constexpr Entry kIntegrators[] = {
     {{"mlt", "Metropolis light transport over bidirectional samples", PassUnit::mutations, ""},
      create<MltIntegrator>,
      mlt_memory},
+    {{"pm", "classic photon mapping: one map, the nearest photons", PassUnit::photons,
+      "--photons --map-photons --nearest --radius", true},
+     create<PhotonMapIntegrator>,
+     photon_map_memory},
 };
 
 const Entry& entry_named(std::string_view name) {

@@ -43,8 +43,10 @@ struct Settings {
                                 << 27;  ///< of scene buffers, at most; never changes the picture
   std::uint64_t photon_capacity =
       0;  ///< photons stored at a time at most; 0: what suits the device
-  std::uint32_t passes_in_flight = 0;  ///< photon passes that the device is given at a time; 0:
-                                       ///< what suits it. Neither ever changes the picture
+  std::uint64_t map_photons = 2000000;  ///< of classic photon mapping, in all
+  std::uint32_t nearest = 500;          ///< of those, n of Eq. 1
+  std::uint32_t passes_in_flight = 0;   ///< photon passes that the device is given at a time; 0:
+                                        ///< what suits it. Neither ever changes the picture
 };
 
 /// A linear RGB picture, row-major from the top, radiance in W/(m^2 sr).
@@ -61,6 +63,9 @@ struct Statistics {
   std::uint64_t eye_rays = 0, photon_rays = 0;  ///< searches for the closest hit; not the pilot's
   double initial_radius_min = 0.0, initial_radius_median = 0.0,
          initial_radius_max = 0.0;  ///< world units
+  std::uint64_t map_photons = 0;    ///< in the photon map of classic photon mapping
+  double nearest_radius_min = 0.0, nearest_radius_median = 0.0,
+         nearest_radius_max = 0.0;  ///< of its estimate, world units
   std::uint64_t paths_cut = 0;
   std::map<std::string, std::uint64_t> rejected;  ///< non_finite, clamped, overflow
   std::map<std::string, double>
@@ -139,6 +144,7 @@ struct Method {
   std::string_view name, summary;
   PassUnit unit;
   std::string_view options;  ///< of those that only some methods have, separated by blanks
+  bool ends_itself = false;  ///< complete at last, so that it needs no budget
 
   bool has_option(std::string_view option) const;
 };

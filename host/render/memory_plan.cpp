@@ -7,6 +7,8 @@
 
 #include "binary_tree.hpp"
 #include "film.hpp"
+#include "nearest_photons.hpp"
+#include "photon_map.hpp"
 #include "shared/layout.h"
 
 namespace ppm::render {
@@ -90,6 +92,24 @@ std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& l
       {"hit points", hits * kHitBytes + std::min(hits, settings.tile_hits) * kTileHitBytes, true,
        Phase::render, Phase::render},
       {"photons", photons, true, Phase::upload, Phase::render},
+  };
+}
+
+std::vector<MemoryPart> photon_map_memory(const Settings& settings, const PassLimits& limits) {
+  const std::uint64_t paths =
+      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
+  const std::uint64_t hits = share(kHitsAPath, paths);
+  const std::uint64_t in_tile = std::min(hits, settings.tile_hits);
+  const PassCapacities capacities = pass_capacities(settings, limits);
+  return {
+      {"hit points", hits * kHitBytes + in_tile * (kTileHitBytes + NearestPhotons::kHitBytes), true,
+       Phase::render, Phase::render},
+      // As found; they are sorted in the map.
+      {"photons",
+       capacities.photons * kPhotonBytes / 2 + capacities.paths * 2 * sizeof(shared::PhotonPath),
+       true, Phase::upload, Phase::render},
+      {"photon map", PhotonMapShape::of(settings, limits).bytes(), true, Phase::upload,
+       Phase::render},
   };
 }
 

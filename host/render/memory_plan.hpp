@@ -35,6 +35,7 @@ struct MemoryPlan {
 /// What the settings' method needs beside the scene: in the table of methods (integrator.cpp).
 std::vector<MemoryPart> method_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& limits);
+std::vector<MemoryPart> photon_map_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> bdpt_memory(const Settings& settings, const PassLimits& limits);
 std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& limits);

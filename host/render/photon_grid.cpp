@@ -16,11 +16,11 @@ namespace {
 // discs hold about as many photons whatever their size, so that the square of cells around one that
 // lies in a plane holds some of them for each of its areas; and a row of cells costs about as much
 // as kRowCost photons, empty or not.
-double search_cost(double radius, double cell) {
-  constexpr double kPhotonsADisc = 20.0, kRowCost = 12.0, kPi = 3.14159265358979324;
+double search_cost(double radius, double cell, double photons_a_disc) {
+  constexpr double kRowCost = 12.0, kPi = 3.14159265358979324;
   const double side = 2.0 + cell / radius;  // of the square, in radii
   const double rows = 2.0 * radius / cell + 1.5;
-  return kPhotonsADisc / kPi * side * side + kRowCost * rows * rows;
+  return photons_a_disc / kPi * side * side + kRowCost * rows * rows;
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void PhotonGrid::bind(gpu::BindingTable& table) const {
   table.set(PPM_BIND_SORTED_FLUX, sorted_flux_);
 }
 
-float cell_from_radii(std::span<const std::uint32_t> histogram) {
+float cell_from_radii(std::span<const std::uint32_t> histogram, double photons_a_disc) {
   // Bin b spans R^2 from 2^(b/2 - 64) on; all of it counts as its geometric mean.
   const auto radius = [](std::size_t bin) {
     return std::exp2(0.25 * (static_cast<double>(bin) + 0.5) - 32.0);
@@ -111,7 +111,8 @@ float cell_from_radii(std::span<const std::uint32_t> histogram) {
     const double cell = radius(candidate);
     double cost = 0.0;
     for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
-      if (histogram[bin] > 0) cost += histogram[bin] * search_cost(radius(bin), cell);
+      if (histogram[bin] > 0)
+        cost += histogram[bin] * search_cost(radius(bin), cell, photons_a_disc);
     }
     if (cost > 0.0 && cost < least) {
       least = cost;

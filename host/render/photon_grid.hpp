@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "cell_table.hpp"
 #include "device_batch.hpp"
@@ -24,6 +25,12 @@ class PhotonGrid {
   /// The size of cells decides how fast searches are, never what they find.
   void build(gpu::Device& device, const gpu::BindingTable& photon_table, std::uint32_t photons,
              float cell);
+
+  /// Exchanges the buffers of the sorted photons for others of as many bytes.
+  void exchange_photons(gpu::Buffer& position, gpu::Buffer& flux) {
+    std::swap(sorted_position_, position);
+    std::swap(sorted_flux_, flux);
+  }
 
   /// The photons of a batch: `passes` passes whose photons begin `share` apart, as many as
   /// `batch.sortable` says, some `expected` of each. `batch` is bound in `photon_table`.
@@ -59,7 +66,7 @@ class PhotonGrid {
 
 /// Cell size with which searches in discs whose radii have this histogram (PPM_RADIUS_BINS bins)
 /// cost least: small cells are many rows to large discs, large cells many photons to small ones. 0
-/// when there are none.
-float cell_from_radii(std::span<const std::uint32_t> histogram);
+/// when there are none. photons_a_disc: that such a disc holds.
+float cell_from_radii(std::span<const std::uint32_t> histogram, double photons_a_disc = 20.0);
 
 }  // namespace ppm::render

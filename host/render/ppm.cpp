@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "failure.hpp"
+#include "radius_summary.hpp"
 #include "region.hpp"
-#include "shared/camera.h"
 #include "shared/random.h"
 #include "stopwatch.hpp"
 
@@ -21,25 +20,6 @@ constexpr std::uint32_t kPilotRounds = 12;
 // Searches of later rounds that cost about as much as sorting as many photons, times this.
 constexpr std::uint64_t kSearchesWorthSorting = 8;
 
-gpu::BindingTable scene_table(const SceneBuffers& buffers) {
-  gpu::BindingTable table;
-  buffers.bind(table);
-  return table;
-}
-
-SceneTraits traits_with_segments(const scene::Scene& scene, const SceneBuffers& buffers) {
-  SceneTraits traits = traits_of(scene);
-  buffers.add_segments(traits);
-  return traits;
-}
-
-std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
-                                          gpu::Device& device) {
-  if (may_need_segments(scene, gpu::segment_size(device, settings.segment_bytes))) return {};
-  return std::async(std::launch::async,
-                    [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); });
-}
-
 }  // namespace
 
 PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene,
@@ -50,8 +30,8 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       log_(log),
       eye_kernels_(begin_eye_kernels(scene, settings, device)),
       buffers_(scene, settings, device, threads),
-      traits_(traits_with_segments(scene, buffers_)),
-      table_(scene_table(buffers_)),
+      traits_(buffers_.traits_of(scene)),
+      table_(buffers_.table()),
       pipelines_begin_(clock_seconds()),
       capacities_(pass_capacities(settings, PassLimits::of(device))),
       tracer_(device, table_, traits_, capacities_.photons, capacities_.paths),
@@ -59,8 +39,8 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
             capacities_.grid_entries),
       estimator_(device, table_, traits_, tile_capacity(settings, device)),
       batch_(device, tracer_, grid_, estimator_),
-      chunk_paths_(
-          static_cast<std::uint32_t>(std::min(settings.photons_per_pass, tracer_.path_capacity()))),
+      chunks_(tracer_, static_cast<std::uint32_t>(
+                           std::min(settings.photons_per_pass, tracer_.path_capacity()))),
       batch_limit_(capacities_.passes) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
@@ -68,14 +48,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
   tracer_.bind_photons(photons_);
-  if (std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel > 0xffffffffu) {
-    throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths",
-                  "make the picture smaller or lower --spp");
-  }
-  if (settings.photons_per_pass > 0xffffffffu) {
-    throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
-  }
-  require_light(buffers_, scene);
+  check_paths(settings, scene, buffers_);
 }
 
 bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
@@ -84,35 +57,9 @@ bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
 
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
-  const gpu::Region region(device_, "eye");
   const EyeKernels kernels =
       eye_kernels_.valid() ? eye_kernels_.get() : EyeKernels(device_, traits_);
-  EyePass eye(device_, kernels, table_, settings_);
-  const std::uint32_t all_pixels = settings_.width * settings_.height;
-  std::uint32_t pixels = 0;
-  for (std::uint32_t first = 0; first < all_pixels; first += pixels) {
-    pixels = std::min(all_pixels - first, eye.suggested_pixels());
-    HitTile tile;
-    for (;;) {
-      const EyePass::Result result = eye.trace(first, pixels, interrupted, tile);
-      if (result == EyePass::Result::interrupted) return false;
-      if (result == EyePass::Result::done) break;
-      if (pixels == 1) {
-        throw Failure("", "--spp " + std::to_string(settings_.samples_per_pixel),
-                      "the hit points of one pixel do not fit a tile",
-                      "lower --spp or raise --tile-hits");
-      }
-      pixels = (pixels + 1) / 2;
-    }
-    Tally tally;
-    tally.add(eye.counters());
-    record(tally);
-    statistics_.hit_points += tile.hits;
-    statistics_.eye_rays += eye.rays();
-    tiles_.push_back(std::move(tile));
-    statistics_.tiles = tiles_.size();
-  }
-  return true;
+  return trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_);
 }
 
 bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
@@ -145,7 +92,7 @@ bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
     } else {
       const auto use = [&] {
         if (interrupted()) return false;
-        whole = chunk_paths_ >= settings_.photons_per_pass;
+        whole = chunks_.paths() >= settings_.photons_per_pass;
         if (whole) {
           undecided = *pilot.decide(grid_, round, false);
         } else {
@@ -175,37 +122,17 @@ std::uint64_t PpmIntegrator::decide_again(Pilot& pilot, const Pilot::Round& roun
 
 Picture PpmIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
-  Picture picture{settings_.width, settings_.height,
-                  std::vector<float>(3ull * settings_.width * settings_.height, 0.0f)};
   const double emitted =
       static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
-  const auto scale = static_cast<float>(buffers_.total_power() / emitted);
-  for (const HitTile& tile : tiles_) {
-    const std::vector<glm::vec4> pixels =
-        estimator_.resolve(tile, settings_.samples_per_pixel, scale);
-    for (std::uint32_t i = 0; i < tile.pixels; ++i) {
-      const glm::uvec2 at =
-          shared::pixel_position(tile.first_pixel + i, settings_.width, settings_.height);
-      float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings_.width + at.x)];
-      rgb[0] = pixels[i].x;
-      rgb[1] = pixels[i].y;
-      rgb[2] = pixels[i].z;
-    }
-  }
-  return picture;
+  return estimator_.picture(tiles_, settings_,
+                            static_cast<float>(buffers_.total_power() / emitted));
 }
 
 void PpmIntegrator::record_initial_radii(std::vector<float> radii2) {
-  if (radii2.empty()) return;
-  const auto to_world = [&](float radius2) {
-    return std::sqrt(static_cast<double>(radius2)) / scene_.frame.scale;
-  };
-  const auto [least, most] = std::minmax_element(radii2.begin(), radii2.end());
-  statistics_.initial_radius_min = to_world(*least);
-  statistics_.initial_radius_max = to_world(*most);
-  const auto middle = radii2.begin() + static_cast<std::ptrdiff_t>(radii2.size() / 2);
-  std::nth_element(radii2.begin(), middle, radii2.end());
-  statistics_.initial_radius_median = to_world(*middle);
+  const RadiusSummary summary = summarize_radii(std::move(radii2), scene_.frame.scale);
+  statistics_.initial_radius_min = summary.min;
+  statistics_.initial_radius_median = summary.median;
+  statistics_.initial_radius_max = summary.max;
 }
 
 const Statistics& PpmIntegrator::statistics() {

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "estimator.hpp"
-#include "eye_pass.hpp"
+#include "eye_tiles.hpp"
 #include "integrator.hpp"
 #include "pass_batch.hpp"
 #include "pass_capacities.hpp"
+#include "path_chunks.hpp"
 #include "photon_grid.hpp"
 #include "photon_tracer.hpp"
 #include "pilot.hpp"
 #include "scene_buffers.hpp"
+#include "tally.hpp"
 
 namespace ppm::render {
 
@@ -60,13 +62,6 @@ class PpmIntegrator final : public Integrator {
   /// From R^2 of all hit points, in the working frame.
   void record_initial_radii(std::vector<float> radii2);
 
-  /// What a pass or tile adds to the statistics once it is complete.
-  struct Tally {
-    std::uint64_t photons_stored = 0, photon_rays = 0;
-    std::uint64_t paths_cut = 0, non_finite = 0, clamped = 0, overflow = 0;
-    void add(const Counters& counters);
-  };
-  void record(const Tally& tally);
   void record_passes(std::uint32_t passes, double seconds);
   std::uint64_t fingerprint() const;
 
@@ -94,7 +89,7 @@ class PpmIntegrator final : public Integrator {
   Estimator estimator_;
   PassBatch batch_;
   std::vector<HitTile> tiles_;
-  std::uint32_t chunk_paths_;  // paths traced at a time, at most
+  PathChunks chunks_;
   std::uint32_t batch_limit_;  // passes recorded at a time, at most
   bool in_steps_ = false;      // the next pass: its searches are too long for a batch
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<Probe>> probes_;  // by x, y

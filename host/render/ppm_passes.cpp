@@ -1,7 +1,6 @@
 // Photon passes: in batches, or under the host's eyes where something does not fit.
 #include <algorithm>
 
-#include "failure.hpp"
 #include "ppm.hpp"
 #include "shared/random.h"
 #include "stopwatch.hpp"
@@ -12,26 +11,12 @@ std::optional<std::uint32_t> PpmIntegrator::for_each_chunk(std::uint32_t stream,
                                                            float cell,
                                                            const std::function<bool()>& interrupted,
                                                            const std::function<bool()>& use) {
-  const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
-  std::uint32_t chunks = 0;
-  for (std::uint32_t first = 0; first < paths;) {
-    const std::uint32_t chunk = std::min(chunk_paths_, paths - first);
-    const PhotonTracer::Result result = tracer_.trace(stream, pass, first, chunk, interrupted);
-    if (result == PhotonTracer::Result::interrupted) return std::nullopt;
-    if (result == PhotonTracer::Result::overflow) {
-      if (chunk == 1) {
-        throw Failure("", "--photon-capacity " + std::to_string(capacities_.photons),
-                      "the photons of one path do not fit", "raise --photon-capacity");
-      }
-      chunk_paths_ = (chunk + 1) / 2;
-      continue;
-    }
+  const auto sort_and_use = [&] {
     grid_.build(device_, photons_, tracer_.photon_count(), cell);
-    if (!use()) return std::nullopt;
-    first += chunk;
-    ++chunks;
-  }
-  return chunks;
+    return use();
+  };
+  return chunks_.trace(stream, pass, 0, static_cast<std::uint32_t>(settings_.photons_per_pass),
+                       interrupted, sort_and_use);
 }
 
 bool PpmIntegrator::advance(const std::function<bool()>& interrupted) {
@@ -75,7 +60,7 @@ std::optional<std::uint32_t> PpmIntegrator::advance_lit(std::uint64_t passes, fl
 
 std::uint32_t PpmIntegrator::batch_size(std::uint64_t passes, float cell) const {
   if (in_steps_ || !estimator_.searches_fit_batch()) return 0;
-  if (chunk_paths_ < settings_.photons_per_pass) return 0;
+  if (chunks_.paths() < settings_.photons_per_pass) return 0;
   return batch_.fitting(std::min<std::uint64_t>(passes, batch_limit_), settings_.photons_per_pass,
                         cell);
 }
@@ -93,7 +78,7 @@ std::optional<std::uint32_t> PpmIntegrator::advance_batch(
     if (passes > 1) {
       batch_limit_ = (passes + 1) / 2;
     } else {
-      chunk_paths_ = (chunk_paths_ + 1) / 2;
+      chunks_.halve();
     }
   }
   if (result.passes == 0) {
@@ -104,7 +89,7 @@ std::optional<std::uint32_t> PpmIntegrator::advance_batch(
   tally.overflow = result.overflow;
   tally.clamped = result.clamped;
   tally.add(tracer_.counters());
-  record(tally);
+  tally.add_to(statistics_);
   return result.passes;
 }
 
@@ -127,25 +112,9 @@ bool PpmIntegrator::advance_in_steps(float cell, const std::function<bool()>& in
     return false;
   }
   estimator_.update(tiles_, static_cast<float>(settings_.alpha));
-  record(tally);
+  tally.add_to(statistics_);
   in_steps_ = false;
   return true;
-}
-
-void PpmIntegrator::Tally::add(const Counters& counters) {
-  paths_cut += counters[PPM_COUNTER_PATHS_CUT];
-  non_finite += counters[PPM_COUNTER_NON_FINITE];
-  clamped += counters[PPM_COUNTER_CLAMPED];
-  photon_rays += counters[PPM_COUNTER_PHOTON_RAYS];
-}
-
-void PpmIntegrator::record(const Tally& tally) {
-  statistics_.photons_stored += tally.photons_stored;
-  statistics_.photon_rays += tally.photon_rays;
-  statistics_.paths_cut += tally.paths_cut;
-  statistics_.rejected["non_finite"] += tally.non_finite;
-  statistics_.rejected["clamped"] += tally.clamped;
-  statistics_.rejected["overflow"] += tally.overflow;
 }
 
 void PpmIntegrator::record_passes(std::uint32_t passes, double seconds) {

@@ -70,10 +70,14 @@ void Progress::passed(const Statistics& statistics, std::optional<double> second
   const Rate rate = rate_of(statistics);
   const double a_second = rate.count * (rate.of_each_pixel ? static_cast<double>(pixels_) : 1.0) /
                           std::max(seconds, 1e-9);
+  const bool open = !passes_ && !seconds_left;  // until the method is complete
   const std::string text =
       fmt::format("{} {}{}, {} {}/s, {} {}", rate.one, passes_done,
                   passes_ ? fmt::format(" of {}", *passes_) : "", short_count(a_second), rate.many,
-                  clock_time(last ? seconds : left), last ? "in all" : "left");
+                  clock_time(last || open ? seconds : left),
+                  last   ? "in all"
+                  : open ? "so far"
+                         : "left");
   if (terminal_) {
     rewrite(text);
   } else {

@@ -69,6 +69,8 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
   };
   add("--photons", {"ppm-vk:photons", number(settings.photons_per_pass)});
   add("--alpha", {"ppm-vk:alpha", settings.alpha});
+  add("--map-photons", {"ppm-vk:map_photons", number(statistics.map_photons)});
+  add("--nearest", {"ppm-vk:nearest", number(settings.nearest)});
   add("--radius", {"ppm-vk:radius", radius_text(settings)});
   if (method.unit == PassUnit::photons) {
     attributes.push_back({"ppm-vk:spp", number(settings.samples_per_pixel)});
@@ -104,6 +106,15 @@ std::string statistics_json(const Settings& settings, const Circumstances& circu
   json["initial_radius"] = {{"min", statistics.initial_radius_min},
                             {"median", statistics.initial_radius_median},
                             {"max", statistics.initial_radius_max}};
+  if (method_named(settings.integrator).has_option("--nearest")) {
+    json["photon_map"] = {{"photons", statistics.map_photons},
+                          {"most_photons", settings.map_photons},
+                          {"nearest", settings.nearest},
+                          {"radius",
+                           {{"min", statistics.nearest_radius_min},
+                            {"median", statistics.nearest_radius_median},
+                            {"max", statistics.nearest_radius_max}}}};
+  }
   for (const char* stage : {"load", "bvh", "upload", "pipelines", "pilot", "eye", "photons", "grid",
                             "update", "resolve", "write", "total"}) {
     json["seconds"][stage] = 0.0;

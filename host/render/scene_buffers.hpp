@@ -24,9 +24,20 @@ class SceneBuffers {
                unsigned threads);
 
   void bind(gpu::BindingTable& table) const;
+  gpu::BindingTable table() const {
+    gpu::BindingTable table;
+    bind(table);
+    return table;
+  }
 
   /// How the buffers are cut, for the kernels that read them.
   void add_segments(SceneTraits& traits) const;
+  /// Those of the scene and of how its buffers are cut.
+  SceneTraits traits_of(const scene::Scene& scene) const {
+    SceneTraits traits = render::traits_of(scene);
+    add_segments(traits);
+    return traits;
+  }
 
   const shared::SceneConstants& constants() const { return constants_; }
   double total_power() const { return total_power_; }  ///< W * frame.scale^2, mean over channels

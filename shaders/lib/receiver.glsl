@@ -36,8 +36,7 @@ Receiver fetch_receiver(uint hit) {
   vec3 wo = vec3(dot(outgoing, receiver.tangent), dot(outgoing, receiver.bitangent),
                  dot(outgoing, receiver.shading_normal));
   receiver.flags = plane1.w;
-  uint events = (plane1.w >> 8u) & 0xffu;
-  receiver.most_events = scene.max_depth == 0u ? 0x7fffffff : int(scene.max_depth) - int(events) - 1;
+  receiver.most_events = most_photon_events(scene.max_depth, plane1.w);
   Bsdf bsdf = unpack_bsdf(PPM_FETCH(hits_3, hit), PPM_FETCH(hits_2, hit).w);
   if (kLayers) bsdf = with_layers(bsdf, PPM_FETCH(hits_4, hit));
   receiver.bsdf = bsdf_towards(bsdf, wo);

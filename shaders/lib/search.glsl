@@ -53,12 +53,17 @@ CellRow cell_row_of_few(GridConstants grid, CellBox box, uint row) {
   return cell_row_at(grid, box, box.low.y + row - z * rows_y, box.low.z + z);
 }
 
+// Without contraction: all kernels must find the same, and so must the host in tests.
+float squared_distance(vec3 a, vec3 b) {
+  precise vec3 offset = a - b;
+  precise float distance2 = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
+  return distance2;
+}
+
 // Whether a photon lies in the disc's ball, counted in the one row that its own position names: rows of a
 // hashed table may overlap.
 bool within(GridConstants grid, CellRow row, vec3 position, vec3 photon_position, float radius2) {
-  precise vec3 offset = photon_position - position;
-  precise float distance2 = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
-  if (distance2 > radius2) return false;
+  if (squared_distance(photon_position, position) > radius2) return false;
   if (grid.table_mask == PPM_GRID_DENSE) return true;
   uvec3 cell = grid_cell(grid, photon_position);
   return cell.y == row.y && cell.z == row.z;
@@ -82,6 +87,11 @@ uint photons_within(GridConstants grid, CellRow row, vec3 position, float radius
 bool accepts(vec3 hit_normal, uint hit_flags, uint packed_incident, uint packed_normal) {
   if (kLayers) return accepts_packed_photon_of_layers(hit_normal, hit_flags, packed_incident, packed_normal);
   return accepts_packed_photon(hit_normal, packed_incident, packed_normal);
+}
+
+// Scattering events that a photon may have had to count at a hit point with these flags. max_depth: of SceneConstants.
+int most_photon_events(uint max_depth, uint hit_flags) {
+  return max_depth == 0u ? 0x7fffffff : int(max_depth) - int((hit_flags >> 8u) & 0xffu) - 1;
 }
 
 #endif

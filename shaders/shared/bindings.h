@@ -101,6 +101,9 @@
 #define PPM_BIND_CHAIN_GREEN 73
 #define PPM_BIND_CHAIN_BLUE 74
 
+// Photon map.
+#define PPM_BIND_NEAREST 53  // NearestSearch of each hit point of a tile
+
 #define PPM_BINDING_LIMIT 80
 
 // Specialisation constants that the device's profile sets in every kernel that declares them

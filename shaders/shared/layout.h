@@ -472,6 +472,44 @@ struct RadiusPush {
   float footprints;    // else this many footprints
 };
 
+// ---- Photon map: the n-th nearest photon of each hit point
+// ----------------------------------------------------------------------
+
+// One hit point's search (shared/nearest.h). Squared distances are words: the bits of their floats.
+#define PPM_NEAREST_LIST 8
+struct NearestSearch {
+  uint from;    // the photon looked for is no nearer than this,
+  uint below;   // than which so many photons are nearer,
+  uint upto;    // and no further than this; 0: not known yet
+  uint within;  // photons no further than `upto`
+  // Counting: three limits, and how many photons lie from `from` up to each; the rest is spare.
+  // Listing: the nearest photons from `from` on.
+  uint words[PPM_NEAREST_LIST];
+};  // 48
+
+// Rows of cells and photons that one dispatch of a long search visits at most for one hit point. On
+// lavapipe all loops of the eight invocations that go in step take 65535 turns together, and each
+// of these may have its photons where the others have none.
+#define PPM_NEAREST_SLICE 2048
+struct NearestPush {
+  uint first, count;
+  GridConstants grid;
+  uint cursor_capacity;
+  uint wanted;     // n
+  uint max_depth;  // as in SceneConstants
+};
+
+// Beginning and deciding.
+struct NearestStepPush {
+  uint first, count;
+  uint stride;   // hit points of SEARCH_ORDER of which one takes part
+  float guess;   // of the squared radius; not positive: -guess times the one it has
+  float spread;  // of that guess
+  uint most;     // word of the largest squared radius
+  uint wanted;
+  uint round;
+};
+
 // Bins of the histogram of radii, half an octave of R^2 each, from 2^-64 on.
 #define PPM_RADIUS_BINS 160
 
@@ -496,6 +534,7 @@ static_assert(sizeof(GridConstants) == 36);
 static_assert(sizeof(EyePath) == 68);
 static_assert(sizeof(HitPoint) == 80);
 static_assert(sizeof(GatherSum) == 40);
+static_assert(sizeof(NearestSearch) == 48);
 }  // namespace ppm::shared
 #endif
 

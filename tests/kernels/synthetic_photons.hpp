@@ -96,22 +96,25 @@ class PhotonBuffers {
 /// An estimator for tiles of at most `tile_hits` synthetic hit points.
 class SyntheticEstimator {
  public:
-  SyntheticEstimator(gpu::Device& device, std::uint64_t tile_hits)
-      : constants_(gpu::make_buffer(device, "scene constants",
-                                    std::span<const shared::SceneConstants>(&kNoLimits, 1),
-                                    gpu::Usage::uniform)),
-        estimator_(device, table(), {}, tile_hits) {}
+  SyntheticEstimator(gpu::Device& device, std::uint64_t tile_hits, std::uint32_t max_depth = 0)
+      : constants_(make_constants(device, max_depth)), estimator_(device, table(), {}, tile_hits) {}
 
   render::Estimator* operator->() { return &estimator_; }
 
  private:
+  static gpu::Buffer make_constants(gpu::Device& device, std::uint32_t max_depth) {
+    shared::SceneConstants constants{};
+    constants.max_depth = max_depth;
+    return gpu::make_buffer(device, "scene constants",
+                            std::span<const shared::SceneConstants>(&constants, 1),
+                            gpu::Usage::uniform);
+  }
   gpu::BindingTable table() const {
     gpu::BindingTable table;
     table.set(PPM_BIND_SCENE_CONSTANTS, constants_);
     return table;
   }
 
-  static constexpr shared::SceneConstants kNoLimits{};
   gpu::Buffer constants_;
   render::Estimator estimator_;
 };

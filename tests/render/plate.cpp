@@ -78,6 +78,8 @@ render::Settings PlateView::settings(const scene::Scene& scene, std::uint32_t ma
   settings.radius = radius;
   settings.samples_per_pixel = samples_per_pixel;
   settings.max_depth = max_depth;
+  settings.integrator = integrator;
+  settings.nearest = nearest;
   return settings;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "render_harness.hpp"
 
@@ -23,6 +24,8 @@ struct PlateView {
   unsigned passes = 4, seeds = 8;
   std::uint64_t photons = 50000;
   std::uint32_t samples_per_pixel = 1;
+  std::string integrator = "ppm";  ///< "pm": `radius` is the largest
+  std::uint32_t nearest = 100;
 
   void add_camera(GltfWriter& writer) const;
   render::Settings settings(const scene::Scene& scene, std::uint32_t max_depth) const;

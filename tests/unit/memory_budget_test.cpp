@@ -118,6 +118,19 @@ TEST(MemoryPlan, FollowsTheMethod) {
   EXPECT_TRUE(contains(film, "make the picture smaller")) << film;
 }
 
+// 32 bytes a photon, as many again of one grid to sort it by, and tables of cells; a grid holds what
+// a buffer of 128 MiB does.
+TEST(MemoryPlan, GrowsWithThePhotonMap) {
+  render::Settings settings;
+  settings.integrator = "pm";
+  settings.map_photons = 2000000;
+  const auto small = static_cast<double>(plan_of({}, settings).device_peak());
+  settings.map_photons = 20000000;
+  const auto large = static_cast<double>(plan_of({}, settings).device_peak());
+  const double grid_growth = 20e6 / 3.0 - 2e6, table = 8.0 * ((1u << 22) + 65536);
+  EXPECT_NEAR(large - small, 32.0 * (18e6 + grid_growth) + 2.0 * table, 1e3);
+}
+
 TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   const MemoryPlan triangles = plan_of({.triangles = 50000000});
   EXPECT_EQ(refusal(triangles, {std::nullopt, kPlenty, std::nullopt}), "");
@@ -138,6 +151,12 @@ TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   settings.width = settings.height = 32768;
   const std::string picture = refusal(plan_of({}, settings), {4 * kGiB, 0, 0});
   EXPECT_TRUE(contains(picture, "make the picture smaller")) << picture;
+  render::Settings map;
+  map.integrator = "pm";
+  map.map_photons = 20000000;
+  const std::string photons = refusal(plan_of({}, map), {kGiB / 2, 0, 0});
+  EXPECT_TRUE(contains(photons, "photon map ")) << photons;
+  EXPECT_TRUE(contains(photons, "lower --map-photons")) << photons;
 }
 
 // A scene with textures, a sky from a file, a lamp of triangles and a camera of its own aspect:

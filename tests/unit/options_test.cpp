@@ -200,6 +200,8 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
                        {"0", "1", "-0.5", "1.5", "nan", "inf", "0.7x", "0.999999999999"});
   expect_value_refused("--radius", {"0", "-1", "nan", "inf", "1e999", "Auto", ""});
   expect_value_refused("--spp", {"0", "65537"});
+  expect_value_refused("--map-photons", {"0", "20000001", "2M"});
+  expect_value_refused("--nearest", {"0", "-1", "1000001"});
   expect_value_refused("--filter", {"Box", "mitchell", ""});
   expect_value_refused("--seed", {"-1", "4294967296"});
   expect_value_refused("--max-depth", {"-1", "256"});
@@ -273,6 +275,17 @@ TEST(Options, BrokenUsageIsRefused) {
   expect_refused({"render", "s.glb", "-o", "o.exr", "two\nlines"}, "two lines");
 }
 
+TEST(Options, ThePhotonMapHasItsOwn) {
+  const Parsed parsed = parse_line({"render", "s.glb", "-o", "o.exr", "--integrator", "pm",
+                                    "--map-photons", "20000000", "--nearest", "1"});
+  EXPECT_EQ(parsed.err, "");
+  EXPECT_EQ(parsed.options.render.settings.map_photons, 20000000u);
+  EXPECT_EQ(parsed.options.render.settings.nearest, 1u);
+  expect_refused({"render", "s.glb", "-o", "o.exr", "--nearest", "50"}, "--nearest");
+  expect_refused({"render", "s.glb", "-o", "o.exr", "--integrator", "pm", "--alpha", "0.5"},
+                 "--alpha");
+}
+
 TEST(Options, HelpAndVersionGoToStandardOutput) {
   for (const auto& arguments : std::vector<std::vector<const char*>>{{"--version"},
                                                                      {"help"},
@@ -300,6 +313,8 @@ TEST(Options, HelpNamesEveryOption) {
                              "--photons",
                              "--alpha",
                              "--radius",
+                             "--map-photons",
+                             "--nearest",
                              "--spp",
                              "--filter",
                              "--seed",

@@ -1,0 +1,29 @@
+// The hit points of the whole picture, tile by tile: for methods whose eye paths end in them.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <vector>
+
+#include "eye_pass.hpp"
+#include "hit_tile.hpp"
+#include "scene_buffers.hpp"
+
+namespace ppm::render {
+
+/// Begins to make the kernels while the tree is built; not in scenes whose buffers must be known
+/// first.
+std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
+                                          gpu::Device& device);
+
+/// Throws Failure where there are more eye paths or photon paths a pass than can be numbered, or
+/// nothing to see them by.
+void check_paths(const Settings& settings, const scene::Scene& scene, const SceneBuffers& buffers);
+
+/// Appends the tiles of all pixels to `tiles`, and adds to the statistics what they took. `scene`:
+/// the table of scene buffers. Returns false when interrupted.
+bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+                     const Settings& settings, const std::function<bool()>& interrupted,
+                     std::vector<HitTile>& tiles, Statistics& statistics);
+
+}  // namespace ppm::render

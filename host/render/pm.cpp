@@ -1,0 +1,266 @@
+#include "pm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "failure.hpp"
+#include "memory_plan.hpp"
+#include "radius_summary.hpp"
+#include "region.hpp"
+#include "shared/random.h"
+#include "stopwatch.hpp"
+
+namespace ppm::render {
+namespace {
+
+// Searches end here, in the scene's bounding radius, lest those in the dark look at all photons.
+constexpr float kLargestRadius = 0.25f;
+// Hit points that tell how far photons are before all are asked.
+constexpr std::uint64_t kSample = 2048;
+// A map that lacks less than this share of its photons is full: the portion that fills it is cut
+// by halves.
+constexpr std::uint64_t kFull = 1024;
+// Paths after which a scene in which none has left a photon is given up.
+constexpr std::uint64_t kHopeless = std::uint64_t{1} << 22;
+// Cells of the search order in likely radii: neighbours in space search together.
+constexpr float kOrderCell = 0.25f;
+
+float largest_radius(const Settings& settings, const scene::Scene& scene,
+                     const SceneBuffers& buffers) {
+  switch (settings.radius_mode) {
+    case RadiusMode::fixed:
+      return static_cast<float>(settings.radius * scene.frame.scale);
+    case RadiusMode::footprint:
+      throw Failure("", "--radius footprint", "classic photon mapping has no first radius",
+                    "give the largest one, or auto");
+    case RadiusMode::automatic:
+      break;
+  }
+  return kLargestRadius * buffers.constants().bounding_radius;
+}
+
+// R^2 that holds `nearest` of so many photons spread over the box's faces.
+float likely_radius2(const SceneTraits& traits, double nearest, double photons) {
+  const glm::dvec3 e = glm::dvec3(traits.bounds_max) - glm::dvec3(traits.bounds_min);
+  const double area = 2.0 * (e.x * e.y + e.y * e.z + e.z * e.x);
+  return static_cast<float>(std::min(nearest / photons, 1.0) * area / std::numbers::pi);
+}
+
+float median_radius2(std::span<const std::uint32_t> histogram) {
+  const std::uint64_t all = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
+  std::uint64_t smaller = 0;
+  std::size_t bin = 0;
+  while (bin + 1 < histogram.size() && 2 * (smaller + histogram[bin]) < all) {
+    smaller += histogram[bin++];
+  }
+  return static_cast<float>(std::exp2(0.5 * (static_cast<double>(bin) + 0.5) - 64.0));
+}
+
+PhotonMapShape announced(const PhotonMapShape& shape, std::uint64_t photons, const Log& log) {
+  log.note("photon map: up to " + std::to_string(photons) + " photons, " +
+           size_text(shape.bytes()));
+  return shape;
+}
+
+}  // namespace
+
+PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::Scene& scene,
+                                         gpu::Device& device, Log& log, unsigned threads)
+    : settings_(settings),
+      scene_(scene),
+      device_(device),
+      eye_kernels_(begin_eye_kernels(scene, settings, device)),
+      buffers_(scene, settings, device, threads),
+      traits_(buffers_.traits_of(scene)),
+      table_(buffers_.table()),
+      capacities_(pass_capacities(settings, PassLimits::of(device))),
+      tracer_(device, table_, traits_, capacities_.photons, capacities_.paths),
+      chunks_(tracer_, static_cast<std::uint32_t>(
+                           std::min(settings.photons_per_pass, tracer_.path_capacity()))),
+      map_(device, scene.bounds_min, scene.bounds_max,
+           announced(PhotonMapShape::of(settings, PassLimits::of(device)), settings.map_photons,
+                     log)),
+      estimator_(device, table_, traits_, tile_capacity(settings, device)),
+      largest_radius_(largest_radius(settings, scene, buffers_)) {
+  statistics_.seconds["bvh"] = buffers_.bvh_seconds();
+  statistics_.seconds["upload"] = buffers_.upload_seconds();
+  statistics_.triangles = scene.triangles.size();
+  statistics_.lights = buffers_.light_count();
+  tracer_.bind_photons(photons_);
+  check_paths(settings, scene, buffers_);
+}
+
+bool PhotonMapIntegrator::prepare(const std::function<bool()>& interrupted) {
+  const Stopwatch stopwatch(statistics_.seconds["eye"]);
+  const EyeKernels kernels =
+      eye_kernels_.valid() ? eye_kernels_.get() : EyeKernels(device_, traits_);
+  if (!trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_)) {
+    return false;
+  }
+  const float radius2 =
+      likely_radius2(traits_, settings_.nearest, static_cast<double>(settings_.map_photons));
+  for (const HitTile& tile : tiles_) {
+    estimator_.set_radii(tile, kOrderCell * std::sqrt(radius2), 0.0f);
+  }
+  estimator_.prepare_searches(tiles_);
+  std::uint32_t most = 0;
+  for (const HitTile& tile : tiles_) most = std::max(most, tile.hits);
+  nearest_.emplace(device_, traits_, most);
+  return true;
+}
+
+PhotonMapIntegrator::Added PhotonMapIntegrator::add_photons(
+    std::uint32_t pass, std::uint32_t first, std::uint32_t paths,
+    const std::function<bool()>& interrupted, Tally& tally) {
+  const std::uint64_t before = map_.photons();
+  Tally added;
+  bool fits = true;
+  const auto append = [&] {
+    fits = map_.photons() + tracer_.photon_count() <= settings_.map_photons;
+    if (!fits) return false;
+    map_.append(photons_, tracer_.photon_count());
+    added.photons_stored += tracer_.photon_count();
+    added.add(tracer_.counters());
+    return true;
+  };
+  if (chunks_.trace(PPM_STREAM_PHOTON, pass, first, paths, interrupted, append)) {
+    tally += added;
+    return Added::all;
+  }
+  map_.truncate(before);
+  return fits ? Added::interrupted : Added::none;
+}
+
+bool PhotonMapIntegrator::advance(const std::function<bool()>& interrupted) {
+  if (complete_) return true;
+  const double start = clock_seconds();
+  const std::uint64_t before = map_.photons();
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  const auto paths = static_cast<std::uint32_t>(settings_.photons_per_pass);
+  Tally tally;
+  bool full = false;
+  std::uint32_t done = 0;
+  for (std::uint32_t step = paths; step > 0 && done < paths;) {
+    step = std::min(step, paths - done);
+    const Added added = add_photons(pass, done, step, interrupted, tally);
+    if (added == Added::interrupted) {
+      map_.truncate(before);
+      return false;
+    }
+    if (added == Added::all) done += step;
+    full = full || added == Added::none;
+    if (full) {
+      if (settings_.map_photons - map_.photons() <= settings_.map_photons / kFull) break;
+      step /= 2;
+    }
+  }
+  tally.add_to(statistics_);
+  statistics_.passes += 1;
+  statistics_.photons_emitted += done;
+  statistics_.map_photons = map_.photons();
+  complete_ = full || map_.photons() == settings_.map_photons ||
+              (map_.photons() == 0 && statistics_.photons_emitted >= kHopeless);
+  const double seconds = clock_seconds() - start;
+  statistics_.pass_seconds.push_back(seconds);
+  statistics_.seconds["photons"] += seconds;
+  return true;
+}
+
+Picture PhotonMapIntegrator::resolve() {
+  if (nearest_ && map_.photons() != estimated_) estimate();
+  const Stopwatch stopwatch(statistics_.seconds["resolve"]);
+  const double emitted =
+      static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
+  return estimator_.picture(tiles_, settings_,
+                            static_cast<float>(buffers_.total_power() / emitted));
+}
+
+void PhotonMapIntegrator::estimate() {
+  find_radii();
+  const Stopwatch stopwatch(statistics_.seconds["update"]);
+  Estimator::Rejected rejected;
+  for (const HitTile& tile : tiles_) {
+    for (const PhotonGrid& grid : map_.grids()) {
+      const Estimator::Rejected more = estimator_.gather(tile, grid);
+      rejected.overflow += more.overflow;
+      rejected.clamped += more.clamped;
+    }
+  }
+  // With alpha = 1 the update divides by the disc's area and leaves the radius.
+  estimator_.update(tiles_, 1.0f);
+  statistics_.rejected["overflow"] += rejected.overflow - rejected_.overflow;
+  statistics_.rejected["clamped"] += rejected.clamped - rejected_.clamped;
+  rejected_ = rejected;
+  estimated_ = map_.photons();
+  record_radii();
+}
+
+void PhotonMapIntegrator::find_radii() {
+  const Stopwatch stopwatch(statistics_.seconds["nearest"]);
+  NearestPhotons::Request request;
+  request.wanted = settings_.nearest;
+  request.max_depth = settings_.max_depth;
+  request.largest_radius = largest_radius_;
+  const auto photons = static_cast<double>(map_.photons());
+  if (estimated_ == 0) {
+    const float likely = std::min(likely_radius2(traits_, settings_.nearest, photons),
+                                  largest_radius_ * largest_radius_);
+    request.guess2 = likely / 8.0f;
+    request.spread = 8.0f;
+    const std::uint64_t sample = std::max<std::uint64_t>(statistics_.hit_points / kSample, 1);
+    request.stride = static_cast<std::uint32_t>(sample);
+    cell_ = 0.5f * std::sqrt(likely);
+    search(request);
+    request.guess2 = median_radius2(nearest_->histogram());
+    request.spread = 2.0f;
+    request.stride = 1;
+  } else {
+    const double fewer = static_cast<double>(estimated_) / photons;
+    request.guess2 = static_cast<float>(-fewer);
+    request.spread = 1.25f;
+    cell_ *= static_cast<float>(std::sqrt(fewer));
+  }
+  search(request);
+}
+
+void PhotonMapIntegrator::search(const NearestPhotons::Request& request) {
+  map_.sort(cell_);
+  nearest_->clear_histogram();
+  for (const HitTile& tile : tiles_) nearest_->find(tile, map_.grids(), request);
+  const double in_each =
+      static_cast<double>(settings_.nearest) / static_cast<double>(map_.grids().size());
+  const float cell = cell_from_radii(nearest_->histogram(), in_each);
+  if (cell > 0.0f) cell_ = cell;
+}
+
+void PhotonMapIntegrator::record_radii() {
+  std::vector<float> radii2;
+  for (const HitTile& tile : tiles_) {
+    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
+      if (statistic.w > 0.0f) radii2.push_back(statistic.w);  // else light seen
+    }
+  }
+  const RadiusSummary summary = summarize_radii(std::move(radii2), scene_.frame.scale);
+  statistics_.nearest_radius_min = summary.min;
+  statistics_.nearest_radius_median = summary.median;
+  statistics_.nearest_radius_max = summary.max;
+}
+
+SavedState PhotonMapIntegrator::save_state() {
+  throw Failure("", "--integrator pm", "its photon map cannot be saved", "render it in one go");
+}
+
+void PhotonMapIntegrator::restore_state(const SavedState&) {
+  save_state();
+}
+
+const Statistics& PhotonMapIntegrator::statistics() {
+  for (const auto& [kernel, time] : device_.times()) {
+    statistics_.kernel_seconds[kernel] = time.seconds;
+  }
+  return statistics_;
+}
+
+}  // namespace ppm::render

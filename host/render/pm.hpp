@@ -1,0 +1,77 @@
+// Classic photon mapping [Jensen, as HOJ08 section 3 has it]: one map of photons, and at each hit
+// point the radiance of the n nearest of them, Eq. 1.
+//
+// L = sum of f_r * flux / (pi r^2) over the photons no further than r, the distance of the n-th
+// nearest, that one included. In even light n / (pi r^2) exceeds the density of photons by a factor
+// of n / (n - 1) in the mean: that is Eq. 1 as it stands, 0.2 % for n = 500. Whoever has fewer than
+// n photons within the largest radius gets those, over that radius.
+#pragma once
+
+#include <future>
+#include <optional>
+#include <vector>
+
+#include "estimator.hpp"
+#include "eye_tiles.hpp"
+#include "integrator.hpp"
+#include "nearest_photons.hpp"
+#include "pass_capacities.hpp"
+#include "path_chunks.hpp"
+#include "photon_map.hpp"
+#include "photon_tracer.hpp"
+#include "scene_buffers.hpp"
+#include "tally.hpp"
+
+namespace ppm::render {
+
+class PhotonMapIntegrator final : public Integrator {
+ public:
+  PhotonMapIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device,
+                      Log& log, unsigned threads);
+
+  bool prepare(const std::function<bool()>& interrupted) override;
+  /// Puts one portion of paths into the map; of the last one as many as fit.
+  bool advance(const std::function<bool()>& interrupted) override;
+  bool complete() const override { return complete_; }
+  /// The estimate from the photons so far.
+  Picture resolve() override;
+  SavedState save_state() override;
+  void restore_state(const SavedState& state) override;
+  const Statistics& statistics() override;
+
+ private:
+  /// The photons of these paths, if they fit; otherwise, and when interrupted, the map is as
+  /// before.
+  enum class Added { all, none, interrupted };
+  Added add_photons(std::uint32_t pass, std::uint32_t first, std::uint32_t paths,
+                    const std::function<bool()>& interrupted, Tally& tally);
+  void estimate();
+  void find_radii();
+  /// Sorts the map and makes the searches; they tell the size of the next one's cells.
+  void search(const NearestPhotons::Request& request);
+  void record_radii();
+
+  Settings settings_;
+  const scene::Scene& scene_;
+  gpu::Device& device_;
+  std::future<EyeKernels> eye_kernels_;
+  SceneBuffers buffers_;
+  SceneTraits traits_;
+  gpu::BindingTable table_;
+  PassCapacities capacities_;
+  PhotonTracer tracer_;
+  gpu::BindingTable photons_;  // the tracer's
+  PathChunks chunks_;
+  PhotonMap map_;
+  Estimator estimator_;
+  std::vector<HitTile> tiles_;
+  std::optional<NearestPhotons> nearest_;  // once there are tiles
+  float largest_radius_;                   // working units
+  float cell_ = 0.0f;                      // of the map, idem
+  bool complete_ = false;
+  std::uint64_t estimated_ = 0;   // photons of which the hit points' statistics tell; 0: none yet
+  Estimator::Rejected rejected_;  // by the last estimate
+  Statistics statistics_;
+};
+
+}  // namespace ppm::render
