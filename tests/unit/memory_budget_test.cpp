@@ -118,8 +118,8 @@ TEST(MemoryPlan, FollowsTheMethod) {
   EXPECT_TRUE(contains(film, "make the picture smaller")) << film;
 }
 
-// 32 bytes a photon, as many again of one grid to sort it by, and tables of cells; a grid holds what
-// a buffer of 128 MiB does.
+// 32 bytes a photon, as many again of one grid to sort it by, and tables of cells; a grid holds
+// what a buffer of 128 MiB does.
 TEST(MemoryPlan, GrowsWithThePhotonMap) {
   render::Settings settings;
   settings.integrator = "pm";
