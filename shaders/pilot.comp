@@ -27,7 +27,7 @@ layout(binding = PPM_BIND_CONTINUE_OUT, scalar) writeonly buffer ContinueOut { u
 
 struct Found {
   uint count;       // photons that count within the round's radius; no more than tell that there are enough
-  uint candidates;  // photons in the cells around; above PPM_GATHER_SLICE it is too many to look at them
+  uint candidates;  // photons in the cells around; above PPM_PILOT_CROWD it is too many to look at them
 };
 
 Found search(uint hit) {
@@ -45,7 +45,7 @@ Found search(uint hit) {
   do {
     CellRow row = cell_row(push.grid, box, i);
     found.candidates += row.end - row.begin;
-    if (found.candidates > PPM_GATHER_SLICE) row.end = row.begin;
+    if (found.candidates > PPM_PILOT_CROWD) row.end = row.begin;
     uint first = row.begin;
     do {
       uint nearby = photons_within(push.grid, row, position, radius2, first, min(first + 32u, row.end));
@@ -58,7 +58,7 @@ Found search(uint hit) {
       } while (nearby != 0u);
       first += 32u;
     } while (first < row.end && found.count < enough);
-  } while (++i < rows && found.count < enough && found.candidates <= PPM_GATHER_SLICE);
+  } while (++i < rows && found.count < enough && found.candidates <= PPM_PILOT_CROWD);
   return found;
 }
 
@@ -70,7 +70,7 @@ void main() {
   float mark = statistics[hit].w;
   if (mark >= 0.0) return;  // decided, or light seen
   Found found = search(hit);
-  bool crowded = found.candidates > PPM_GATHER_SLICE;
+  bool crowded = found.candidates > PPM_PILOT_CROWD;
   if (!kDecide) {
     gather_sums[hit].nearby += found.candidates;
     gather_sums[hit].count += found.count;

@@ -19,7 +19,7 @@ void main() {
   float mark = statistics[hit].w;
   if (mark >= 0.0) return;  // decided, or light seen
   uint found = gather_sums[hit].count;
-  bool enough = gather_sums[hit].nearby > PPM_GATHER_SLICE || found >= PPM_PILOT_ENOUGH * push.wanted;
+  bool enough = gather_sums[hit].nearby > PPM_PILOT_CROWD || found >= PPM_PILOT_ENOUGH * push.wanted;
   gather_sums[hit].count = 0u;
   gather_sums[hit].nearby = 0u;
   float radius2 = radius2_from_round(push, mark, enough, found);

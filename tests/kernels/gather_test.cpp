@@ -246,6 +246,25 @@ TEST_F(Gather, ADiscOfManyPhotonsIsCountedWhole) {
   }
 }
 
+TEST_F(Gather, CrowdsInRowsOfTheirOwnAreCountedWhole) {
+  // Long searches in step, each of which meets its photons where the others meet none: what loops
+  // of one invocation may take is then shared by all of them.
+  constexpr std::uint32_t kSearches = 8, kPhotons = 40000;
+  Randoms random(16);
+  std::vector<SyntheticHit> hits;
+  std::vector<Photon> photons;
+  for (std::uint32_t i = 0; i < kSearches; ++i) {
+    const vec3 centre(-0.7f + 0.2f * static_cast<float>(i), 0.0f, 0.0f);
+    hits.push_back({centre, 0.09f * 0.09f});
+    const vec3 crowd = centre + vec3(0.0f, -0.07f + 0.02f * static_cast<float>(i), 0.0f);
+    for (std::uint32_t j = 0; j < kPhotons; ++j)
+      photons.push_back(photon_at(crowd + 0.001f * random.in_cube(1.0f), random_flux(random)));
+  }
+  const std::vector<Sums> expected = brute_force(hits, photons, f());
+  for (const Sums& sums : expected) ASSERT_EQ(sums.count, kPhotons);
+  EXPECT_TRUE(gather(hits, photons, {.cell = 0.02f}) == expected);
+}
+
 TEST_F(Gather, EmptyRowsDoNotEndTheSearch) {
   // Up to 512 x 512 rows of cells in the disc's box, nearly all of them empty.
   const SyntheticHit hits[] = {{vec3(0.0f), 1.0f}, {vec3(0.9f), 4.0f}};
