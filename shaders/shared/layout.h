@@ -447,8 +447,8 @@ struct ResolvePush {
 // Hit points of one pixel that one dispatch of the resolve kernel adds at most.
 #define PPM_RESOLVE_SLICE 8192
 // Rows of cells and photons that one dispatch of a search visits at most for one hit point. On
-// lavapipe all loops of the eight invocations that go in step take 65535 turns together, some two for
-// each photon, and each of these may have its photons where the others have none.
+// lavapipe all loops of the eight invocations that go in step take 65535 turns together, some two
+// for each photon, and each of these may have its photons where the others have none.
 #define PPM_GATHER_SLICE 2048
 // Photons around a hit point above which the pilot does not look at them: one turn each, few more.
 #define PPM_PILOT_CROWD 6144
