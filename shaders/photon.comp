@@ -23,6 +23,8 @@ layout(binding = PPM_BIND_PHOTON_POSITION, scalar) writeonly buffer PhotonPositi
 layout(binding = PPM_BIND_PHOTON_FLUX, scalar) writeonly buffer PhotonFluxes { uvec4 photon_flux[]; };
 
 const float kNoRange = 1e30;  // longer than any ray
+// Photons leave their lights with 1 in the mean over channels and photons; those of coloured lights with up to 3 in one.
+const float kUsualFlux = 2.0;
 
 // Random blocks of a path: 0 and 1 start it, 2 + n is its n-th scattering, to which a channel may have to be drawn.
 const uint kFirstScatteringBlock = 2u;
@@ -104,8 +106,9 @@ bool scatter(inout PhotonPath path, Surface surface, MediaInterface sides, uint 
   }
   vec3 flux = path.flux * chosen.weight * factor;
 
-  // Russian roulette that keeps fluxes nearly equal, as pbrt-v4 has it.
-  float survival = min(1.0, max_component(flux) / max_component(path.flux));
+  // Russian roulette that keeps fluxes nearly equal, as pbrt-v4 has it, but lets go first of
+  // what the factors of several events have piled up on a path: else few photons of great flux show as discs.
+  float survival = min(1.0, max_component(flux) / min(max_component(path.flux), kUsualFlux));
   if (!(u.w < survival)) return false;
   path.flux = flux / survival;
   path.direction = direction;
