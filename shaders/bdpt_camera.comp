@@ -26,8 +26,9 @@ SubPath start(uint index) {
   uvec2 pixel = path_pixel(index, path_words(PPM_STREAM_CAMERA_PATH, index, kFilmBlock), rest);
   uint number = 0u;  // of the pixel's samples, which cover it evenly
   if (!kChains) {
-    number = push.pass;
-    rest = random_words(RandomStream(scene.seed, PPM_STREAM_CAMERA_PATH, 0u, push.first_path + index), kShiftBlock).xy;
+    uvec2 own = pass_and_pixel(index);
+    number = own.x;
+    rest = random_words(RandomStream(scene.seed, PPM_STREAM_CAMERA_PATH, 0u, own.y), kShiftBlock).xy;
   }
   vec2 film = film_sample_in_sequence(push.filter_kind, pixel.x, pixel.y, number, rest);
   SubPath path;

@@ -57,13 +57,23 @@ bool BdptIntegrator::prepare(const std::function<bool()>& interrupted) {
 }
 
 bool BdptIntegrator::advance(const std::function<bool()>& interrupted) {
+  return advance_up_to(1, interrupted) == 1;
+}
+
+std::uint64_t BdptIntegrator::advance_up_to(std::uint64_t passes,
+                                            const std::function<bool()>& interrupted) {
   const double start = clock_seconds();
-  const std::uint32_t pixels = settings_.width * settings_.height;
-  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
+  const std::uint64_t made =
+      std::clamp<std::uint64_t>(sampler_.path_capacity() / pixels, 1, passes);
+  const auto all = static_cast<std::uint32_t>(made * pixels);
   const Statistics before = statistics_;
-  for (std::uint32_t first = 0; first < pixels;) {
-    const std::uint32_t paths = std::min(tile_paths_, pixels - first);
-    const BidirectionalSampler::Result result = sampler_.trace({pass, first, paths}, interrupted);
+  for (std::uint32_t first = 0; first < all;) {
+    const std::uint32_t paths = std::min(tile_paths_, all - first);
+    const BidirectionalSampler::Result result =
+        sampler_.trace({static_cast<std::uint32_t>(statistics_.passes), first, paths, 0,
+                        static_cast<std::uint32_t>(made)},
+                       interrupted);
     if (result == BidirectionalSampler::Result::overflow) {
       if (paths == 1) {
         throw Failure("", "--max-depth", "the sub-paths of one sample do not fit", "limit it");
@@ -74,17 +84,18 @@ bool BdptIntegrator::advance(const std::function<bool()>& interrupted) {
     if (result == BidirectionalSampler::Result::interrupted) {
       if (first > 0) film_.revert();
       statistics_ = before;
-      return false;
+      return 0;
     }
-    if (first == 0 && paths < pixels) film_.keep();
+    if (first == 0 && paths < all) film_.keep();
     sampler_.deposit();
     record(sampler_.counters());
     first += paths;
   }
-  ++statistics_.passes;
+  statistics_.passes += made;
   statistics_.samples = statistics_.passes;
-  statistics_.pass_seconds.push_back(clock_seconds() - start);
-  return true;
+  const double seconds = (clock_seconds() - start) / static_cast<double>(made);
+  statistics_.pass_seconds.insert(statistics_.pass_seconds.end(), made, seconds);
+  return made;
 }
 
 void BdptIntegrator::record(const Counters& counters) {

@@ -17,6 +17,8 @@ class BdptIntegrator final : public Integrator {
 
   bool prepare(const std::function<bool()>& interrupted) override;
   bool advance(const std::function<bool()>& interrupted) override;
+  std::uint64_t advance_up_to(std::uint64_t passes,
+                              const std::function<bool()>& interrupted) override;
   Picture resolve() override;
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;

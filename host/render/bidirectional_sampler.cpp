@@ -23,6 +23,8 @@ constexpr std::uint64_t kVerticesAPath = 6;
 constexpr std::uint64_t kPairsAPath = 24;
 // Independent samples, before there are chains, are taken so many at a time at least.
 constexpr std::uint64_t kLeastChainSamples = 4096;
+// Passes of small pictures are made several at a time.
+constexpr std::uint64_t kLeastSamples = 1u << 14;
 // The longest path must fit.
 constexpr std::uint64_t kLeastVertices = 1u << 14;
 constexpr std::uint64_t kLeastPairs = 1u << 18;
@@ -40,8 +42,9 @@ gpu::Kernel kernel(gpu::Device& device, const SceneTraits& traits, const gpu::Sh
 
 SamplerCapacities sampler_capacities(const Settings& settings, std::uint64_t storage_bytes,
                                      std::uint32_t chains) {
-  const std::uint64_t samples = chains > 0 ? std::max<std::uint64_t>(chains, kLeastChainSamples)
-                                           : std::uint64_t{settings.width} * settings.height;
+  const std::uint64_t samples =
+      chains > 0 ? std::max<std::uint64_t>(chains, kLeastChainSamples)
+                 : std::max(std::uint64_t{settings.width} * settings.height, kLeastSamples);
   const std::uint64_t fitting = storage_bytes / (kVerticesAPath * sizeof(shared::PathVertex));
   const std::uint64_t paths =
       std::min({samples, fitting, kMostPaths, std::max<std::uint64_t>(settings.tile_hits, 1)});
@@ -115,6 +118,7 @@ BidirectionalSampler::Result BidirectionalSampler::trace(const SampleRange& rang
   push_.pass = range.pass;
   push_.first_path = range.first_path;
   push_.phase = range.phase;
+  push_.passes = range.passes;
   device_.run([&](gpu::Recorder& recorder) {
     counters_.clear(recorder);
     recorder.fill(light_heads_, PPM_BDPT_NONE, range.paths * 4ull);

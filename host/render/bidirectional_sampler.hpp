@@ -14,9 +14,11 @@ namespace ppm::render {
 
 /// Samples that are traced together.
 struct SampleRange {
-  std::uint32_t pass;               ///< number of the pass, or of the chains' step
-  std::uint32_t first_path, paths;  ///< pixels or chains by number; at most path_capacity of them
+  std::uint32_t pass;               ///< number of the first pass, or of the chains' step
+  std::uint32_t first_path, paths;  ///< of the passes, one after the other, or of the chains; at
+                                    ///< most path_capacity of them
   std::uint32_t phase = 0;          ///< PPM_CHAINS_*
+  std::uint32_t passes = 1;         ///< passes * pixels < 2^24 unless it is 1
 };
 
 /// What is held at a time: samples, and their vertices and pairs by experience.

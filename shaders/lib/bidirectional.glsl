@@ -57,7 +57,7 @@ uint picture_pixel(uvec2 position) { return position.y * scene.width + position.
 // is not known before all of it is.
 void deposit(uint path, vec3 value) {
   uint target = path;
-  if (!kChains) target = picture_pixel(pixel_position(push.first_path + path, scene.width, scene.height));
+  if (!kChains) target = picture_pixel(pixel_position(pass_and_pixel(path).y, scene.width, scene.height));
   film_add(target, value * kChannelWeight);
 }
 

@@ -47,10 +47,25 @@ uvec4 proposed_words(uint stream, uint chain, uint block) {
   return mutate_words(PPM_CHAIN_WORDS(slot * push.chains + chain), fresh);
 }
 
-uvec4 path_words(uint stream, uint path, uint block) {
+// Of samples of pixels: the pass that a path belongs to and the number of its pixel. A quotient of numbers below 2^24,
+// wrong by one at most before it is put right: integers are divided one lane after the other on lavapipe.
+uvec2 pass_and_pixel(uint path) {
   uint number = push.first_path + path;
-  if (kChains) return proposed_words(stream, number, block);
-  return random_words(RandomStream(scene.seed, stream, push.pass, number), block);
+#ifdef PPM_WRITES_CHAINS
+  return uvec2(push.pass, number);
+#else
+  uint pixels = scene.width * scene.height;
+  uint pass = min(uint(int(float(int(number)) / float(int(pixels)))), push.passes - 1u);
+  if (pass * pixels > number) pass -= 1u;
+  if (pass + 1u < push.passes && (pass + 1u) * pixels <= number) pass += 1u;
+  return uvec2(push.pass + pass, number - pass * pixels);
+#endif
+}
+
+uvec4 path_words(uint stream, uint path, uint block) {
+  if (kChains) return proposed_words(stream, push.first_path + path, block);
+  uvec2 number = pass_and_pixel(path);
+  return random_words(RandomStream(scene.seed, stream, number.x, number.y), block);
 }
 
 // The pixel that a camera path belongs to. Of chains, two words are a place within the whole picture; `rest` is what is
@@ -61,7 +76,7 @@ uvec2 path_pixel(uint path, uvec4 words, out uvec2 rest) {
   if (kChains) {
     umulExtended(words.xy, uvec2(scene.width, scene.height), pixel, rest);
   } else {
-    pixel = pixel_position(push.first_path + path, scene.width, scene.height);
+    pixel = pixel_position(pass_and_pixel(path).y, scene.width, scene.height);
   }
   return pixel;
 }

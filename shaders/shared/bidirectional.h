@@ -74,8 +74,10 @@ struct LensSplat {
 
 struct BidirectionalPush {
   uint first, count;
-  uint pass;        // RNG counter
-  uint first_path;  // number of the tile's first path, RNG counter; the pixel of that number
+  uint pass;        // RNG counter: of the first pass, or the chains' step
+  uint passes;      // that are sampled together; passes * pixels < 2^24 unless it is 1
+  uint first_path;  // the tile's first among their paths, which go through the pixels by number,
+                    // pass by pass, or through the chains
   uint generate;    // 1: items are new paths; 0: items are PATHS_IN
   uint bounces;     // that this dispatch follows a path at most
   uint vertex_capacity, path_capacity, pair_capacity;
@@ -83,7 +85,7 @@ struct BidirectionalPush {
   float light_paths;  // n_L: light paths for each sample of every pixel
   uint phase;         // PPM_CHAINS_*, of Markov chains
   uint chains;        // idem, all of them
-};                    // 52
+};                    // 56
 
 // Roulette: the probability with which a path goes on whose throughput an event has multiplied by
 // `ratio`. Light that is caught between surfaces which absorb nothing gets out or is given up.
@@ -175,7 +177,7 @@ namespace ppm::shared {
 static_assert(sizeof(SubPath) == 68);
 static_assert(sizeof(PathVertex) == 64);
 static_assert(sizeof(LensSplat) == 16);
-static_assert(sizeof(BidirectionalPush) == 52);
+static_assert(sizeof(BidirectionalPush) == 56);
 }  // namespace ppm::shared
 #endif
 
