@@ -4,7 +4,7 @@
 set -eu
 
 packages="g++ cmake ninja-build glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers libglm-dev libfmt-dev
-  libcli11-dev nlohmann-json3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenimageio-dev openimageio-tools"
+  libcli11-dev nlohmann-json3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenimageio-dev openimageio-tools libxxhash-dev"
 if [ "${1:-}" = tests ]; then
   packages="$packages libgtest-dev libembree-dev vulkan-validationlayers python3"
 fi
