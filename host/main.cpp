@@ -10,9 +10,11 @@
 #include "compare_command.hpp"
 #include "devices_command.hpp"
 #include "failure.hpp"
+#include "info_command.hpp"
 #include "inspect_command.hpp"
 #include "options.hpp"
 #include "render_command.hpp"
+#include "resume_command.hpp"
 
 namespace {
 
@@ -26,6 +28,10 @@ int act(const ppm::cli::Options& options) {
       return ppm::cli::bench_command(options.bench);
     case ppm::cli::Verb::inspect:
       return ppm::cli::inspect_command(options.inspect);
+    case ppm::cli::Verb::resume:
+      return ppm::cli::resume_command(options.resume);
+    case ppm::cli::Verb::info:
+      return ppm::cli::info_command(options.info);
     case ppm::cli::Verb::devices:
       return ppm::cli::devices_command();
     case ppm::cli::Verb::nothing:

@@ -11,8 +11,10 @@
 
 #include "bench_options.hpp"
 #include "compare_options.hpp"
+#include "info_options.hpp"
 #include "inspect_options.hpp"
 #include "render_options.hpp"
+#include "resume_options.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -21,9 +23,11 @@ constexpr const char* kOverview =
     "ppm-vk renders glTF scenes by progressive photon mapping on Vulkan devices.\n"
     "\n"
     "  ppm-vk render SCENE.glb -o OUT.exr   render a scene\n"
+    "  ppm-vk resume CHECKPOINT             go on with one that was stopped\n"
     "  ppm-vk compare SCENE.glb -o REPORT/  render it by several methods for the same time\n"
     "  ppm-vk bench [SCENE...]              measure how fast it renders\n"
     "  ppm-vk inspect SCENE.glb             say what a scene holds and what memory it takes\n"
+    "  ppm-vk info FILE                     say what a checkpoint or one of our EXRs holds\n"
     "  ppm-vk devices                       list the Vulkan devices and say which can serve\n"
     "  ppm-vk help [VERB]                   this text, or all options of a verb\n"
     "  ppm-vk --version                     the version\n"
@@ -112,6 +116,21 @@ Options parse_inspect(const std::vector<std::string>& arguments) {
       [](const CLI::App& app, Options& options) { check_inspect(app, options.inspect); });
 }
 
+Options parse_resume(const std::vector<std::string>& arguments) {
+  RenderOptions scratch;
+  return parse_verb(
+      Verb::resume, "resume", arguments,
+      [&](CLI::App& app, Options& options) { declare_resume(app, options.resume, scratch); },
+      [](const CLI::App& app, Options& options) { check_resume(app, options.resume); });
+}
+
+Options parse_info(const std::vector<std::string>& arguments) {
+  return parse_verb(
+      Verb::info, "info", arguments,
+      [](CLI::App& app, Options& options) { declare_info(app, options.info); },
+      [](const CLI::App& app, Options& options) { check_info(app, options.info); });
+}
+
 Options parse_help(const std::vector<std::string>& arguments) {
   if (arguments.size() > 1)
     return usage_error(arguments[1] + ": one argument too many", "see ppm-vk help");
@@ -120,6 +139,8 @@ Options parse_help(const std::vector<std::string>& arguments) {
   if (arguments[0] == "compare") return parse_compare({"--help"});
   if (arguments[0] == "bench") return parse_bench({"--help"});
   if (arguments[0] == "inspect") return parse_inspect({"--help"});
+  if (arguments[0] == "resume") return parse_resume({"--help"});
+  if (arguments[0] == "info") return parse_info({"--help"});
   if (arguments[0] == "devices") return printed(kDevicesHelp);
   return usage_error(arguments[0] + ": no such verb", "see ppm-vk help");
 }
@@ -142,6 +163,8 @@ Options parse(int argc, const char* const* argv) {
   if (verb == "compare") return parse_compare(rest);
   if (verb == "bench") return parse_bench(rest);
   if (verb == "inspect") return parse_inspect(rest);
+  if (verb == "resume") return parse_resume(rest);
+  if (verb == "info") return parse_info(rest);
   if (verb == "devices") return parse_devices(rest);
   if (verb == "help" || verb == "--help" || verb == "-h") return parse_help(rest);
   if (verb == "--version") {

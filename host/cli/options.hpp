@@ -14,7 +14,20 @@
 
 namespace ppm::cli {
 
-enum class Verb { render, compare, bench, inspect, devices, nothing };
+enum class Verb { render, resume, compare, bench, inspect, info, devices, nothing };
+
+/// How long a rendering goes on, beside passes and time, and what it leaves and tells on the way.
+struct RunOptions {
+  std::optional<std::uint64_t> total_photons;  ///< the pass that reaches them is finished
+  std::filesystem::path checkpoint;            ///< empty: none is written
+  double checkpoint_seconds = 60.0;            ///< between two of them
+  std::filesystem::path preview;               ///< empty: none
+  double preview_seconds = 5.0;                ///< between two of them
+  std::filesystem::path fallback;              ///< folder; empty: none
+  bool progress_json = false;
+  /// The command line as render::Checkpoint::words has it.
+  std::vector<std::string> words;
+};
 
 /// `ppm-vk render ...`, checked for all that can be checked without opening a file.
 struct RenderOptions {
@@ -24,7 +37,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> width,
       height;  ///< Settings::width and height follow once the camera is known
   std::optional<std::uint64_t> passes;
-  std::uint64_t usual_passes = 64;  ///< where neither passes nor seconds are given
+  std::uint64_t usual_passes = 64;  ///< where nothing says when it ends
   std::optional<double> seconds;    ///< that the rendering may take
   std::string camera;               ///< name or index, empty: the first
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
@@ -35,6 +48,7 @@ struct RenderOptions {
   std::optional<std::uint64_t> memory_budget;  ///< bytes; nothing: what the machine has
   Verbosity verbosity = Verbosity::normal;
   gpu::DeviceOptions device;
+  RunOptions run;
   render::Settings settings;  ///< all but width, height, camera
 
   std::uint64_t passes_or_usual() const { return passes.value_or(usual_passes); }
@@ -88,6 +102,18 @@ struct InspectOptions {
   bool json = false;
 };
 
+/// `ppm-vk resume ...`, likewise.
+struct ResumeOptions {
+  std::filesystem::path checkpoint;
+  std::vector<std::string> words;  ///< what differs from those in the checkpoint, in their form
+};
+
+/// `ppm-vk info ...`, likewise.
+struct InfoOptions {
+  std::filesystem::path file;
+  bool json = false;
+};
+
 struct Options {
   Verb verb = Verb::nothing;
   int exit_code =
@@ -96,6 +122,8 @@ struct Options {
   CompareOptions compare;
   BenchOptions bench;
   InspectOptions inspect;
+  ResumeOptions resume;
+  InfoOptions info;
 };
 
 /// Never throws for what a user can type: prints one line and yields Verb::nothing with exit

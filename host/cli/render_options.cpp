@@ -10,6 +10,7 @@
 #include "image.hpp"
 #include "load_environment.hpp"
 #include "memory_budget.hpp"
+#include "run_options.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -18,8 +19,6 @@ constexpr std::uint32_t kLargestSide = 32768;
 constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, where all are kept at once
 
 void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
-  declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
-               [&](const std::string& value) { options.scene = value; });
   declare.group("Files");
   app.add_option_function<std::vector<std::string>>(
          "-o,--output",
@@ -109,8 +108,7 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
   constexpr std::uint64_t kMany = std::numeric_limits<std::uint32_t>::max();
   declare.group("Method");
   declare_integrator(declare, settings);
-  declare.whole<std::uint64_t>("--passes", options.passes, 1, kMany,
-                               fmt::format("{} (default {})", passes, options.usual_passes));
+  declare_passes(declare, options, fmt::format("{} (default {})", passes, options.usual_passes));
   declare.whole<std::uint64_t>(
       "--photons", settings.photons_per_pass, 1, kMany,
       fmt::format("photon paths emitted a pass (default {})", settings.photons_per_pass));
@@ -136,6 +134,15 @@ void declare_method(Declarer& declare, RenderOptions& options, const char* passe
       "--max-depth", settings.max_depth, 0, 255,
       fmt::format("scattering events between light and eye at most; 0: no limit (default {})",
                   settings.max_depth));
+}
+
+void declare_outputs(Declarer& declare, RenderOptions& options, CLI::App& app) {
+  declare_files(declare, options, app);
+}
+
+void declare_passes(Declarer& declare, RenderOptions& options, const std::string& help) {
+  declare.whole<std::uint64_t>("--passes", options.passes, 1,
+                               std::numeric_limits<std::uint32_t>::max(), help);
 }
 
 void declare_time(Declarer& declare, RenderOptions& options) {
@@ -261,11 +268,15 @@ void declare_render(CLI::App& app, RenderOptions& options) {
       "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr [-o ...] [OPTIONS]\n"));
   app.allow_extras();
   Declarer declare(app);
-  declare_files(declare, options, app);
+  declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
+               [&](const std::string& value) { options.scene = value; });
+  declare_outputs(declare, options, app);
   declare_method(declare, options, "passes: of photons, or samples of each pixel");
   declare_time(declare, options);
+  declare_total_photons(declare, options);
   declare_camera(declare, options);
   declare_lights(declare, options);
+  declare_run(declare, options, true);
   declare_machine(declare, options);
   declare_testing(declare, options);
 }
@@ -308,10 +319,14 @@ void check_shared(const CLI::App& app, const RenderOptions& options) {
       throw CLI::ValidationError(name, "needs --env");
     }
   }
+  check_verbosity(app);
+  check_camera(options);
+}
+
+void check_verbosity(const CLI::App& app) {
   if (app.count("--quiet") > 0 && app.count("--verbose") > 0) {
     throw CLI::ValidationError("--quiet", "excludes --verbose");
   }
-  check_camera(options);
 }
 
 void check_camera(const RenderOptions& options) {
@@ -337,7 +352,9 @@ void check_render(const CLI::App& app, RenderOptions& options) {
     for (const auto& output : options.outputs) clash = clash || same_file(options.stats, output);
     if (clash) throw refusal("--stats", options.stats.string(), "a file of its own");
   }
+  check_run(app, options);
   check_shared(app, options);
+  options.run.words = words_of(app);
 }
 
 }  // namespace ppm::cli

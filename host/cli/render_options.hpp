@@ -13,6 +13,8 @@ void check_render(const CLI::App& app, RenderOptions& options);
 /// Groups of options; help names the defaults that `options` has, and says of --passes what they
 /// are.
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
+void declare_outputs(Declarer& declare, RenderOptions& options, CLI::App& app);
+void declare_passes(Declarer& declare, RenderOptions& options, const std::string& help);
 void declare_time(Declarer& declare, RenderOptions& options);
 void declare_camera(Declarer& declare, RenderOptions& options);
 void declare_lights(Declarer& declare, RenderOptions& options);
@@ -27,5 +29,7 @@ void check_camera(const RenderOptions& options);
 /// Their part of the check, and arguments that nothing takes.
 void check_shared(const CLI::App& app, const RenderOptions& options);
 void check_extras(const CLI::App& app);
+/// That it is not to be both quiet and verbose.
+void check_verbosity(const CLI::App& app);
 
 }  // namespace ppm::cli

@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint_keeper.hpp"
 #include "image.hpp"
 #include "integrator.hpp"
 #include "log.hpp"
+#include "progress.hpp"
 
 namespace ppm::render {
 
@@ -28,6 +30,7 @@ class Interruption {
 };
 
 /// When a rendering is complete: as soon as either is spent, or the method has all it can take.
+/// What was done before a checkpoint counts.
 struct Budget {
   std::optional<std::uint64_t> passes;  ///< nothing: any number
   /// From the call of `drive` on. The pass in hand then is finished. Nothing: any time.
@@ -39,6 +42,12 @@ struct Outputs {
   std::vector<std::filesystem::path> pictures;
   double exposure = 0.0;             ///< PNG only, powers of two
   std::filesystem::path statistics;  ///< JSON; empty: none
+  Keeping keeping;
+  std::filesystem::path preview;  ///< a picture, too; empty: none
+  double preview_seconds = 5.0;   ///< at least, between two of them
+  /// Folder for what cannot be written where it should at the end; empty: none.
+  std::filesystem::path fallback;
+  ProgressStyle progress = ProgressStyle::text;
 };
 
 /// What the driver reports about and cannot know. The frame is that of `settings.camera`.
@@ -58,11 +67,13 @@ enum class Outcome { complete, interrupted };
 /// Throws Failure unless every file of `outputs` could be written.
 void check_outputs(const Outputs& outputs);
 
-/// Prepares and advances `integrator` until the budget is spent or `interruption` is requested,
-/// then writes the picture so far and the statistics. Calls check_outputs first. When one file
-/// cannot be written the others are all the same, and then the Failure is thrown.
+/// Prepares `integrator`, or restores it from a checkpoint, and advances it until the budget is
+/// spent or `interruption` is requested; then writes the checkpoint, the picture so far and the
+/// statistics. Calls check_outputs first. When one file cannot be written the others are all the
+/// same, and then the Failure is thrown; checkpoints and previews on the way are only warned of.
+/// `resumed` may be null; its state is let go of once it is restored.
 Outcome drive(Integrator& integrator, const Settings& settings, const Budget& budget,
               const Outputs& outputs, const Circumstances& circumstances,
-              const Interruption& interruption, Log& log);
+              const Interruption& interruption, Log& log, Checkpoint* resumed = nullptr);
 
 }  // namespace ppm::render

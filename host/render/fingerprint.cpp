@@ -1,7 +1,5 @@
 #include "fingerprint.hpp"
 
-#include "failure.hpp"
-
 namespace ppm::render {
 namespace {
 
@@ -67,21 +65,47 @@ void add(Hash& hash, const scene::PunctualLight& light) {
   hash.add(light.range);
 }
 
+void add(Hash& hash, const scene::Environment& environment) {
+  hash.add(environment.width);
+  hash.add(environment.height);
+  hash.add(environment.strength);
+  hash.add(environment.rotation);
+  for (const glm::vec3& texel : environment.texels) hash.add(&texel, sizeof texel);
+}
+
 }  // namespace
 
-void add_scene(Hash& hash, const scene::Scene& scene) {
-  PPM_ASSERT(!scene.triangles.empty(), "the scene's arrays were released");
+std::vector<PartHash> part_hashes(const scene::Scene& scene) {
+  Hash frame, triangles, materials, textures, lights, environment;
+  frame.add(&scene.frame.centre, sizeof scene.frame.centre);
+  frame.add(scene.frame.scale);
   for (const scene::Triangle& triangle : scene.triangles) {
-    for (const scene::Corner& corner : triangle.corners) hash.add(&corner, sizeof corner);
-    hash.add(triangle.material);
+    for (const scene::Corner& corner : triangle.corners) triangles.add(&corner, sizeof corner);
+    triangles.add(triangle.material);
   }
-  for (const scene::TriangleDetail& detail : scene.details) hash.add(&detail, sizeof detail);
-  for (const scene::Material& material : scene.materials) add(hash, material);
-  for (const scene::Texture& texture : scene.textures) add(hash, texture);
-  for (const scene::PunctualLight& light : scene.punctual_lights) add(hash, light);
-  if (scene.environment) {
-    for (const glm::vec3& texel : scene.environment->texels) hash.add(&texel, sizeof texel);
+  for (const scene::TriangleDetail& detail : scene.details) triangles.add(&detail, sizeof detail);
+  for (const scene::Material& material : scene.materials) add(materials, material);
+  for (const scene::Texture& texture : scene.textures) add(textures, texture);
+  for (const scene::PunctualLight& light : scene.punctual_lights) add(lights, light);
+  environment.add(scene.environment.has_value());
+  if (scene.environment) add(environment, *scene.environment);
+  return {{"size and place", frame.value()},   {"triangles", triangles.value()},
+          {"materials", materials.value()},    {"textures", textures.value()},
+          {"punctual lights", lights.value()}, {"environment", environment.value()}};
+}
+
+void add_scene(Hash& hash, const scene::Scene& scene) {
+  for (const PartHash& part : part_hashes(scene)) hash.add(part.value);
+}
+
+void add_camera(Hash& hash, const scene::Camera& camera) {
+  for (const glm::dvec3* v : {&camera.position, &camera.right, &camera.up, &camera.forward}) {
+    hash.add(v, sizeof *v);
   }
+  hash.add(camera.name.data(), camera.name.size());
+  hash.add(camera.yfov);
+  hash.add(camera.ymag.has_value());
+  hash.add(camera.ymag.value_or(0.0));
 }
 
 }  // namespace ppm::render

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "scene.hpp"
 
@@ -26,8 +28,21 @@ class Hash {  // FNV-1a, 64 bits
   std::uint64_t value_ = 0xcbf29ce484222325ull;
 };
 
-/// All of the scene that shows in a picture, but for its camera. Its arrays must not have been
-/// released.
+/// A part of a scene, by a name for people, and the hash of what it holds.
+struct PartHash {
+  std::string part;
+  std::uint64_t value = 0;
+
+  bool operator==(const PartHash&) const = default;
+};
+
+/// Of all of the scene that shows in a picture, but for its camera. Arrays that were released count
+/// as empty.
+std::vector<PartHash> part_hashes(const scene::Scene& scene);
+
+/// All parts of the scene, as part_hashes.
 void add_scene(Hash& hash, const scene::Scene& scene);
+/// Its name, where it stands, where it looks and how wide.
+void add_camera(Hash& hash, const scene::Camera& camera);
 
 }  // namespace ppm::render

@@ -1,12 +1,14 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace ppm::render {
 namespace {
@@ -32,63 +34,120 @@ Rate rate_of(const Statistics& statistics) {
   return {"pass", "photons", static_cast<double>(statistics.photons_emitted), false};
 }
 
+/// So that a line of the terminal does not become two, of which only the second is rewritten.
+std::string cut_to_terminal(std::string text) {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    text.resize(std::min<std::size_t>(text.size(), size.ws_col - 1u));
+  }
+  return text;
+}
+
+/// What is known of a moment, whoever is told.
+struct State {
+  Rate rate;
+  double a_second = 0.0;
+  std::optional<double> seconds_left;
+};
+
+std::string text_of(const Statistics& statistics, const std::optional<std::uint64_t>& passes,
+                    const State& state, const Progress::Moment& moment) {
+  const Rate& rate = state.rate;
+  std::string text = fmt::format("{} {}{}, ", rate.one, statistics.passes,
+                                 passes ? fmt::format(" of {}", *passes) : "");
+  if (!rate.of_each_pixel) text += fmt::format("{} {}, ", short_count(rate.count), rate.many);
+  text += fmt::format("{} {}/s, {} {}", short_count(state.a_second), rate.many,
+                      clock_time(moment.seconds), moment.last ? "in all" : "so far");
+  if (!moment.last && state.seconds_left) {
+    text += fmt::format(", {} left", clock_time(*state.seconds_left));
+  }
+  if (moment.change) text += fmt::format(", change {:.2g} %", 100.0 * moment.change->value);
+  return text;
+}
+
+std::string json_of(const Statistics& statistics, const std::optional<std::uint64_t>& passes,
+                    const State& state, const Progress::Moment& moment) {
+  nlohmann::ordered_json json;
+  json["stage"] = moment.last ? "done" : "passes";
+  json["passes"] = statistics.passes;
+  if (passes) json["passes_wanted"] = *passes;
+  json["photons"] = statistics.photons_emitted;
+  json["samples"] = statistics.samples;
+  json["mutations"] = statistics.mutations;
+  json[fmt::format("{}_per_second", state.rate.many)] = state.a_second;
+  json["seconds"] = moment.seconds;
+  if (state.seconds_left) json["seconds_left"] = std::max(0.0, *state.seconds_left);
+  if (moment.change) {
+    json["change"] = moment.change->value;
+    json["change_since"] = moment.change->since;
+  }
+  return json.dump();
+}
+
 }  // namespace
 
-Progress::Progress(const Log& log, std::optional<std::uint64_t> passes, std::uint64_t pixels)
-    : silent_(log.verbosity() == Verbosity::quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
+Progress::Progress(const Log& log, ProgressStyle style, std::optional<std::uint64_t> passes,
+                   std::uint64_t pixels)
+    : silent_(log.verbosity() == Verbosity::quiet && style != ProgressStyle::json),
+      terminal_(isatty(STDERR_FILENO) == 1 && style != ProgressStyle::json),
+      json_(style == ProgressStyle::json),
       passes_(passes),
       pixels_(pixels) {}
 
-Progress::~Progress() {
+void Progress::end() {
   if (line_open_) std::fputc('\n', stderr);
+  line_open_ = false;
 }
 
 void Progress::preparing() {
-  if (!silent_ && terminal_) rewrite("preparing");
+  if (json_) tell(R"({"stage":"preparing"})");
+  if (!silent_ && terminal_) tell("preparing");
 }
 
-void Progress::passing() {
+void Progress::passing(const Statistics& statistics) {
   start_ = Clock::now();
+  passes_before_ = statistics.passes;
+  count_before_ = rate_of(statistics).count;
 }
 
-void Progress::passed(const Statistics& statistics, std::optional<double> seconds_left, bool last) {
-  if (silent_) return;
-  const std::uint64_t passes_done = statistics.passes;
+bool Progress::due(std::uint64_t passes, bool last) {
+  if (silent_) return false;
   const Clock::time_point now = Clock::now();
-  const bool due = last || now - last_ >= (terminal_ ? Clock::duration(kRewriteInterval)
-                                                     : Clock::duration(kPlainInterval));
-  const bool milestone = !terminal_ && passes_done >= milestone_;
-  if (!due && !milestone) return;
+  const Clock::duration interval =
+      terminal_ || json_ ? Clock::duration(kRewriteInterval) : Clock::duration(kPlainInterval);
+  const bool milestone = !terminal_ && passes >= milestone_;
+  if (!last && !milestone && now - last_ < interval) return false;
   last_ = now;
-  milestone_ = 2 * std::bit_floor(passes_done);
+  milestone_ = 2 * std::bit_floor(passes);
+  return true;
+}
 
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double done = static_cast<double>(passes_done);
-  double left = seconds_left.value_or(1e9);
-  if (passes_) left = std::min(left, seconds / done * (static_cast<double>(*passes_) - done));
-  const Rate rate = rate_of(statistics);
-  const double a_second = rate.count * (rate.of_each_pixel ? static_cast<double>(pixels_) : 1.0) /
-                          std::max(seconds, 1e-9);
-  const bool open = !passes_ && !seconds_left;  // until the method is complete
-  const std::string text =
-      fmt::format("{} {}{}, {} {}/s, {} {}", rate.one, passes_done,
-                  passes_ ? fmt::format(" of {}", *passes_) : "", short_count(a_second), rate.many,
-                  clock_time(last || open ? seconds : left),
-                  last   ? "in all"
-                  : open ? "so far"
-                         : "left");
-  if (terminal_) {
-    rewrite(text);
+void Progress::passed(const Statistics& statistics, const Moment& moment) {
+  if (!due(statistics.passes, moment.last)) return;
+  const double seconds = std::chrono::duration<double>(last_ - start_).count();
+  const auto made = static_cast<double>(statistics.passes - passes_before_);
+  State state{rate_of(statistics), 0.0, moment.seconds_left};
+  state.a_second = (state.rate.count - count_before_) *
+                   (state.rate.of_each_pixel ? static_cast<double>(pixels_) : 1.0) /
+                   std::max(seconds, 1e-9);
+  if (passes_) {
+    const double to_make = static_cast<double>(*passes_) - static_cast<double>(statistics.passes);
+    state.seconds_left = std::min(moment.seconds_left.value_or(1e9), seconds / made * to_make);
+  }
+  tell(json_ ? json_of(statistics, passes_, state, moment)
+             : text_of(statistics, passes_, state, moment));
+}
+
+void Progress::tell(const std::string& text) {
+  if (json_) {
+    std::fprintf(stderr, "%s\n", text.c_str());
+  } else if (terminal_) {
+    std::fprintf(stderr, "\r%s\x1b[K", cut_to_terminal("ppm-vk: " + text).c_str());
+    line_open_ = true;
   } else {
     std::fprintf(stderr, "ppm-vk: %s\n", text.c_str());
   }
-}
-
-void Progress::rewrite(const std::string& text) {
-  std::fprintf(stderr, "\rppm-vk: %s\x1b[K", text.c_str());
   std::fflush(stderr);
-  line_open_ = true;
 }
 
 const char* pass_names(const Statistics& statistics) {

@@ -31,6 +31,7 @@ class Program {
   /// Waits until stderr has `text`; false when the program ends or the limit passes before.
   bool wait_for(std::string_view text);
   void send(int signal) const;
+  pid_t id() const { return process_; }
   /// Waits for the end.
   Result finish();
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "counter.hpp"
 #include "failure.hpp"
 #include "progress.hpp"
 #include "read_picture.hpp"
@@ -18,47 +19,10 @@
 namespace ppm::render {
 namespace {
 
+using test::Counter;
 using test::file_text;
 using test::TemporaryFolder;
 using Names = std::set<std::string>;
-
-/// Its picture's red channel is the number of passes.
-class Counter : public Integrator {
- public:
-  explicit Counter(const Settings& settings) : settings_(settings) {}
-
-  bool prepare(const std::function<bool()>& interrupted) override {
-    ++prepared;
-    if (interrupt_in_prepare) std::raise(SIGINT);
-    return !interrupted();
-  }
-  bool advance(const std::function<bool()>& interrupted) override {
-    if (counted.passes + 1 == interrupt_in_pass) std::raise(SIGTERM);
-    if (interrupted()) return false;
-    ++counted.passes;
-    counted.photons_emitted += settings_.photons_per_pass;
-    counted.pass_seconds.push_back(0.5);
-    return true;
-  }
-  Picture resolve() override {
-    Picture picture{settings_.width, settings_.height, {}};
-    for (std::uint32_t i = 0; i < settings_.width * settings_.height; ++i) {
-      picture.rgb.insert(picture.rgb.end(), {static_cast<float>(counted.passes), 0.5f, 0.25f});
-    }
-    return picture;
-  }
-  SavedState save_state() override { return {}; }
-  void restore_state(const SavedState& /*state*/) override {}
-  const Statistics& statistics() override { return counted; }
-
-  Statistics counted;
-  int prepared = 0;
-  bool interrupt_in_prepare = false;
-  std::uint64_t interrupt_in_pass = 0;
-
- private:
-  Settings settings_;
-};
 
 class Driver : public ::testing::Test {
  protected:

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "budget.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -249,6 +252,38 @@ TEST(Options, TimesHaveUnits) {
   }
 }
 
+// The smaller of what is given; the usual 64 only where nothing is.
+TEST(Options, TheFirstEndThatIsReachedCounts) {
+  constexpr auto kAny = std::nullopt;
+  const std::vector<
+      std::tuple<std::vector<const char*>, std::optional<std::uint64_t>, std::optional<double>>>
+      cases = {
+          {{}, 64, kAny},
+          {{"--time", "5"}, kAny, 5.0},
+          {{"--integrator", "pm"}, kAny, kAny},
+          {{"--photons", "1000", "--total-photons", "1"}, 1, kAny},
+          {{"--photons", "1000", "--total-photons", "5000"}, 5, kAny},
+          {{"--photons", "1000", "--total-photons", "5001"}, 6, kAny},
+          {{"--photons", "1000", "--total-photons", "5001", "--passes", "4"}, 4, kAny},
+          {{"--photons", "1000", "--total-photons", "5001", "--passes", "9"}, 6, kAny},
+          {{"--photons", "1000", "--total-photons", "5001", "--time", "2m"}, 6, 120.0},
+          {{"--photons", "1", "--total-photons", "9007199254740992"}, 4294967295u, kAny},
+          {{"--integrator", "pm", "--total-photons", "150000"}, 2, kAny},
+      };
+  for (const auto& [words, passes, seconds] : cases) {
+    SCOPED_TRACE(testing::PrintToString(words));
+    const render::Budget budget = budget_for(accepted(words));
+    EXPECT_EQ(budget.passes, passes);
+    EXPECT_EQ(budget.seconds, seconds);
+  }
+  expect_value_refused("--total-photons", {"0", "-1", "1e9", "9007199254740993", ""});
+  for (const char* const method : {"pt", "pt-mis", "bdpt", "lt", "mlt"}) {
+    expect_refused(
+        {"render", "s.glb", "-o", "o.exr", "--integrator", method, "--total-photons", "9"},
+        "--total-photons");
+  }
+}
+
 TEST(Options, BrokenUsageIsRefused) {
   expect_refused({}, "no verb");
   expect_refused({"rendr"}, "rendr");
@@ -310,6 +345,7 @@ TEST(Options, HelpNamesEveryOption) {
                              "--height",
                              "--passes",
                              "--time",
+                             "--total-photons",
                              "--photons",
                              "--alpha",
                              "--radius",
