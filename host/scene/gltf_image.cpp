@@ -171,8 +171,8 @@ class Decoder {
 
   /// As many rows as the file keeps together, from `y` on.
   bool read_band(int y, int end, OIIO::TypeDesc type, void* band) {
-    if (spec_.tile_width == 0)
-      return input_->read_scanlines(0, 0, y, end, 0, 0, spec_.nchannels, type, band);
+    // One by one: read_scanlines allocates 64 MiB at each call, which sanitisers mark byte by byte.
+    if (spec_.tile_width == 0) return input_->read_scanline(y, 0, type, band);
     return input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, y, end, spec_.z, spec_.z + 1, 0,
                               spec_.nchannels, type, band);
   }
