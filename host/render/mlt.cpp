@@ -72,6 +72,7 @@ std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& l
 MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene,
                              gpu::Device& device, Log&, unsigned threads)
     : settings_(settings),
+      scene_(scene),
       device_(device),
       buffers_(scene, settings, device, threads),
       traits_(traits_with_segments(scene, buffers_)),
@@ -95,7 +96,7 @@ MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene
         table.set(PPM_BIND_CHAIN_STARTS, starts_);
         return table;
       }()),
-      sampler_(device, sampling_, traits_, settings, PPM_BDPT_ALL, chains_),
+      sampler_(device, sampling_, traits_, settings, settings.bdpt_strategies, chains_),
       step_(device, shaders::mlt_step),
       splat_count_(device, "splat count", 4, gpu::Usage::storage),
       splat_capacity_(static_cast<std::uint32_t>(splat_capacity(sampler_.vertex_capacity()))),
@@ -248,14 +249,6 @@ Picture MltIntegrator::resolve() {
   const double pixels = static_cast<double>(settings_.width) * settings_.height;
   const double mutations = static_cast<double>(steps_) * chains_;
   return film_.resolve(steps_ > 0 ? mutations / pixels : 1.0);
-}
-
-SavedState MltIntegrator::save_state() {
-  throw Failure("", "--integrator mlt", "its state cannot be kept yet", "render in one go");
-}
-
-void MltIntegrator::restore_state(const SavedState&) {
-  save_state();
 }
 
 const Statistics& MltIntegrator::statistics() {

@@ -33,6 +33,7 @@ class MltIntegrator final : public Integrator {
            const std::function<bool()>& interrupted);
   bool choose_starts(const std::function<bool()>& interrupted);
   void refine_normalisation();
+  std::uint64_t fingerprint() const;
 
   /// All that a pass changes.
   struct Snapshot {
@@ -45,6 +46,7 @@ class MltIntegrator final : public Integrator {
   void go_back(const Snapshot& snapshot);
 
   Settings settings_;
+  const scene::Scene& scene_;
   gpu::Device& device_;
   SceneBuffers buffers_;
   SceneTraits traits_;

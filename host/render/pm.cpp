@@ -248,14 +248,6 @@ void PhotonMapIntegrator::record_radii() {
   statistics_.nearest_radius_max = summary.max;
 }
 
-SavedState PhotonMapIntegrator::save_state() {
-  throw Failure("", "--integrator pm", "its photon map cannot be saved", "render it in one go");
-}
-
-void PhotonMapIntegrator::restore_state(const SavedState&) {
-  save_state();
-}
-
 const Statistics& PhotonMapIntegrator::statistics() {
   for (const auto& [kernel, time] : device_.times()) {
     statistics_.kernel_seconds[kernel] = time.seconds;

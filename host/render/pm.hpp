@@ -50,6 +50,7 @@ class PhotonMapIntegrator final : public Integrator {
   /// Sorts the map and makes the searches; they tell the size of the next one's cells.
   void search(const NearestPhotons::Request& request);
   void record_radii();
+  std::uint64_t fingerprint() const;
 
   Settings settings_;
   const scene::Scene& scene_;
