@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "failure.hpp"
 #include "plate.hpp"
 #include "small_room.hpp"
 
@@ -101,6 +102,11 @@ TEST_F(PhotonMap, FewerPhotonsThanWanted) {
   writer.directional_light({0.0, -1.0, 0.0}, glm::dvec3(1.0), 4.0);
   expect_irradiance(
       device(), writer, view, albedo, [](glm::dvec2) { return glm::dvec3(4.0); }, 1, 0.0);
+  // That is the radius, which is as found, not as it would be shrunk.
+  const scene::Scene scene = load(writer);
+  const auto statistics = render_scene(device(), scene, view.settings(scene, 0), 1).statistics;
+  EXPECT_NEAR(statistics.nearest_radius_min, view.radius, 1e-4 * view.radius);
+  EXPECT_NEAR(statistics.nearest_radius_max, view.radius, 1e-4 * view.radius);
 }
 
 class PhotonMapOfRoom : public RenderTest {
@@ -183,7 +189,9 @@ TEST_F(PhotonMapOfRoom, IsCompleteOnceItIsFull) {
     const auto integrator = render::make_integrator(settings_, scene_, device(), log, 2);
     ASSERT_TRUE(integrator->prepare(never));
     EXPECT_FALSE(integrator->complete());
-    ASSERT_TRUE(integrator->advance(never));
+    // Interrupted anywhere, also when parts of what is cut have been added, it starts afresh.
+    int polls = 0;
+    for (int most = 0; !integrator->advance([&] { return ++polls > most; }); most += 3) polls = 0;
     EXPECT_TRUE(integrator->complete());
     const render::Statistics statistics = integrator->statistics();
     EXPECT_EQ(statistics.map_photons, statistics.photons_stored);
@@ -215,6 +223,31 @@ TEST_F(PhotonMapOfRoom, AnInterruptedPassLeavesNoTrace) {
   }
   EXPECT_EQ(integrator->statistics().passes, 3u);
   EXPECT_TRUE(same_bits(integrator->resolve(), render(settings_).picture));
+}
+
+TEST_F(PhotonMapOfRoom, GoesOnFromASavedState) {
+  settings_.map_photons = 40000;
+  Log log(Verbosity::quiet);
+  const auto made = [&](const render::Settings& settings) {
+    return render::make_integrator(settings, scene_, device(), log, 2);
+  };
+  const auto first = made(settings_);
+  ASSERT_TRUE(first->prepare(never));
+  for (const bool full : {false, true}) {
+    ASSERT_TRUE(first->advance(never));
+    while (full && !first->complete()) ASSERT_TRUE(first->advance(never));
+    const render::SavedState state = first->save_state();
+    render::Settings cut = settings_;
+    cut.photon_capacity = 7001;
+    const auto second = made(cut);
+    second->restore_state(state);
+    EXPECT_EQ(second->save_state(), state);
+    EXPECT_EQ(second->complete(), full);
+    EXPECT_TRUE(same_bits(first->resolve(), second->resolve()));
+    cut.nearest = 61;
+    EXPECT_THROW(made(cut)->restore_state(state), Failure);
+    EXPECT_THROW(made(settings_)->restore_state({state.begin(), state.end() - 1}), Failure);
+  }
 }
 
 }  // namespace
