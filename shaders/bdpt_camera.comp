@@ -21,6 +21,8 @@ layout(binding = PPM_BIND_LIGHT_HEADS, scalar) readonly buffer LightHeads { uint
 // Light tracing has no use for camera paths beyond the first surface that is not specular.
 const bool kOnlySpecular = (kWays & ~PPM_BDPT_LENS) == 0u;
 
+uint max_depth;  // as in SceneConstants
+
 SubPath start(uint index) {
   uvec2 rest;
   uvec2 pixel = path_pixel(index, path_words(PPM_STREAM_CAMERA_PATH, index, kFilmBlock), rest);
@@ -30,7 +32,7 @@ SubPath start(uint index) {
     number = own.x;
     rest = random_words(RandomStream(scene.seed, PPM_STREAM_CAMERA_PATH, 0u, own.y), kShiftBlock).xy;
   }
-  vec2 film = film_sample_in_sequence(push.filter_kind, pixel.x, pixel.y, number, rest);
+  vec2 film = film_sample_in_sequence(read_at_run_time(push.filter_kind, index), pixel.x, pixel.y, number, rest);
   SubPath path;
   path.origin = camera_origin(scene, film);
   path.path = index;
@@ -41,7 +43,7 @@ SubPath start(uint index) {
   path.media = camera_media();
   path.last = PPM_BDPT_NONE;
   path.distance = 0.0;
-  bool lens = (kWays & PPM_BDPT_LENS) != 0u && scene.camera_kind == PPM_CAMERA_PERSPECTIVE;
+  bool lens = (kWays & PPM_BDPT_LENS) != 0u && read_at_run_time(scene.camera_kind, index) == PPM_CAMERA_PERSPECTIVE;
   PathMis mis = mis_camera_start(push.light_paths, lens ? pixel_solid_angle(scene, path.direction) : 0.0);
   path.d_vcm = mis.d_vcm;
   path.d_vc = mis.d_vc;
@@ -60,8 +62,8 @@ uint store(SubPath path, Hit hit, uint flags, vec3 throughput) {
 // Pairs the vertex with those of its light path that leave it within the depth.
 void pair(SubPath path, uint vertex) {
   uint events = events_of(path.state);
-  if (scene.max_depth != 0u && events + 2u > scene.max_depth) return;
-  uint most = scene.max_depth == 0u ? 0xffffu : scene.max_depth - events - 2u;  // events before the light vertex
+  if (max_depth != 0u && events + 2u > max_depth) return;
+  uint most = max_depth == 0u ? 0xffffu : max_depth - events - 2u;  // events before the light vertex
   uint light = light_heads[path.path];
   uint ordinal = 0u;
   bool too_deep;
@@ -179,7 +181,7 @@ bool advance(inout SubPath path) {
     float weight = emission_weight(path, missed, hit.triangle, two_sided, cosine, sight.pdf_solid_angle);
     if (weight > 0.0) store(path, hit, PPM_BDPT_EMISSION, path.throughput * radiance * weight);
   }
-  if (missed || (scene.max_depth != 0u && events >= scene.max_depth)) return false;
+  if (missed || (max_depth != 0u && events >= max_depth)) return false;
   if (!kOnlySpecular && is_non_specular(surface.bsdf)) {
     uint vertex = store(path, hit, 0u, path.throughput);
     if ((kWays & PPM_BDPT_CONNECTIONS) != 0u) pair(path, vertex);
@@ -194,18 +196,20 @@ bool advance(inout SubPath path) {
 void main() {
   uint item = item_of_invocation(push.first);
   if (item >= push.first + push.count) return;
+  max_depth = read_at_run_time(scene.max_depth, item);
   SubPath path;
-  if (push.generate != 0u) {
+  if (read_at_run_time(push.generate, item) != 0u) {
     path = start(item);
   } else {
     path = paths_in[item];
   }
   bool alive;
+  uint bounces = read_at_run_time(push.bounces, item);
   uint bounce = 0u;
   do {
     alive = advance(path);
     ++bounce;
-  } while (alive && bounce < push.bounces);
+  } while (alive && bounce < bounces);
   atomicAdd(counters[PPM_COUNTER_EYE_RAYS], bounce);
   if (alive) {
     uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);

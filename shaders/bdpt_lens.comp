@@ -22,10 +22,11 @@ struct Splat {
 };
 
 Splat splat_at(vec2 film, uint path, uint events) {
-  if (push.filter_kind == PPM_FILTER_BOX) return Splat(ivec2(floor(film)), 1.0);
+  uint filter_kind = read_at_run_time(push.filter_kind, path);
+  if (filter_kind == PPM_FILTER_BOX) return Splat(ivec2(floor(film)), 1.0);
   vec4 u = units_of(path_words(PPM_STREAM_LIGHT_PATH, path, kSplatBlock + events));
-  FilterChoice x = choose_filter(push.filter_kind, film.x, u.x);
-  FilterChoice y = choose_filter(push.filter_kind, film.y, u.y);
+  FilterChoice x = choose_filter(filter_kind, film.x, u.x);
+  FilterChoice y = choose_filter(filter_kind, film.y, u.y);
   return Splat(ivec2(x.pixel, y.pixel), x.weight * y.weight);
 }
 

@@ -154,18 +154,19 @@ void main() {
   if (item >= push.first + push.count) return;
   SubPath path;
   float range = kNoRange;
-  if (push.generate != 0u) {
+  if (read_at_run_time(push.generate, item) != 0u) {
     path = emit(item, range);
   } else {
     path = paths_in[item];
   }
   bool alive;
+  uint bounces = read_at_run_time(push.bounces, item);
   uint bounce = 0u;
   do {
     alive = advance(path, range);
     range = kNoRange;  // all but the first segment
     ++bounce;
-  } while (alive && bounce < push.bounces);
+  } while (alive && bounce < bounces);
   atomicAdd(counters[PPM_COUNTER_PHOTON_RAYS], bounce);
   if (alive) {
     uint slot = atomicAdd(counters[PPM_COUNTER_PATHS_OUT], 1u);

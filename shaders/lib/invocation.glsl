@@ -20,4 +20,9 @@ uint item_of_invocation(uint first) {
   return first + block * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
+// A word of the push block that decides which way a kernel goes. Where such a word alone decides over most of a kernel,
+// lavapipe compiles the kernel anew whenever the word changes, and never frees the old ones. An item (below 2^31) in the
+// sum keeps it from seeing that all invocations have the same.
+uint read_at_run_time(uint word, uint item) { return word + (item >> 31u); }
+
 #endif
