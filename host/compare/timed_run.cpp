@@ -26,9 +26,9 @@ std::string text_of(const std::variant<int, double, std::string>& value) {
 /// What tells of one rendering rather than of its method.
 bool is_of_one_rendering(const std::string& name) {
   static const std::set<std::string> kNames = {
-      "ppm-vk:program",   "ppm-vk:device",          "ppm-vk:driver",
-      "ppm-vk:scene",     "ppm-vk:passes",          "ppm-vk:samples",
-      "ppm-vk:mutations", "ppm-vk:photons_emitted", "ppm-vk:seed"};
+      "ppm-vk:program",        "ppm-vk:device",  "ppm-vk:driver",    "ppm-vk:scene",
+      "ppm-vk:passes",         "ppm-vk:samples", "ppm-vk:mutations", "ppm-vk:photons_emitted",
+      "ppm-vk:photons_stored", "ppm-vk:seed"};
   return kNames.contains(name);
 }
 

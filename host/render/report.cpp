@@ -69,7 +69,8 @@ std::vector<image::Attribute> picture_attributes(const Settings& settings,
   };
   add("--photons", {"ppm-vk:photons", number(settings.photons_per_pass)});
   add("--alpha", {"ppm-vk:alpha", settings.alpha});
-  add("--map-photons", {"ppm-vk:map_photons", number(statistics.map_photons)});
+  add("--map-photons", {"ppm-vk:map_photons", number(settings.map_photons)});
+  add("--map-photons", {"ppm-vk:photons_stored", number(statistics.map_photons)});
   add("--nearest", {"ppm-vk:nearest", number(settings.nearest)});
   add("--radius", {"ppm-vk:radius", radius_text(settings)});
   if (method.unit == PassUnit::photons) {
