@@ -4,7 +4,6 @@
 
 #include "failure.hpp"
 #include "film_state.hpp"
-#include "fingerprint.hpp"
 #include "stopwatch.hpp"
 
 namespace ppm::render {
@@ -49,7 +48,6 @@ BdptIntegrator::BdptIntegrator(const Settings& settings, const scene::Scene& sce
   statistics_.seconds["upload"] = buffers_.upload_seconds();
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
-  require_light(buffers_, scene);
 }
 
 bool BdptIntegrator::prepare(const std::function<bool()>& interrupted) {
@@ -112,21 +110,14 @@ Picture BdptIntegrator::resolve() {
   return film_.resolve(static_cast<double>(std::max<std::uint64_t>(statistics_.passes, 1)));
 }
 
-std::uint64_t BdptIntegrator::fingerprint() const {
-  Hash hash;
-  hash.add(settings_.integrator.data(), settings_.integrator.size());
-  hash.add(static_cast<std::uint32_t>(settings_.filter));
-  hash.add(&buffers_.constants(), sizeof(shared::SceneConstants));
-  add_scene(hash, scene_);
-  return hash.value();
-}
-
 SavedState BdptIntegrator::save_state() {
-  return save_film(film_, {fingerprint(), statistics_.passes});
+  const std::uint64_t fingerprint = film_fingerprint(settings_, buffers_.constants(), scene_);
+  return save_film(film_, {fingerprint, statistics_.passes});
 }
 
 void BdptIntegrator::restore_state(const SavedState& state) {
-  statistics_.passes = statistics_.samples = restore_film(film_, state, fingerprint());
+  const std::uint64_t fingerprint = film_fingerprint(settings_, buffers_.constants(), scene_);
+  statistics_.passes = statistics_.samples = restore_film(film_, state, fingerprint);
 }
 
 const Statistics& BdptIntegrator::statistics() {

@@ -26,7 +26,6 @@ class BdptIntegrator final : public Integrator {
 
  private:
   void record(const Counters& counters);
-  std::uint64_t fingerprint() const;
 
   Settings settings_;
   const scene::Scene& scene_;

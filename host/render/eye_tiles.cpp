@@ -15,7 +15,7 @@ std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Setti
                     [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); });
 }
 
-void check_paths(const Settings& settings, const scene::Scene& scene, const SceneBuffers& buffers) {
+void check_paths(const Settings& settings) {
   if (std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel > 0xffffffffu) {
     throw Failure("", "--width, --height, --spp", "more than 2^32 eye paths",
                   "make the picture smaller or lower --spp");
@@ -23,7 +23,6 @@ void check_paths(const Settings& settings, const scene::Scene& scene, const Scen
   if (settings.photons_per_pass > 0xffffffffu) {
     throw Failure("", "--photons", "more than 2^32 - 1 paths a pass", "take more passes instead");
   }
-  require_light(buffers, scene);
 }
 
 bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,

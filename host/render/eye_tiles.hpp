@@ -16,9 +16,8 @@ namespace ppm::render {
 std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
                                           gpu::Device& device);
 
-/// Throws Failure where there are more eye paths or photon paths a pass than can be numbered, or
-/// nothing to see them by.
-void check_paths(const Settings& settings, const scene::Scene& scene, const SceneBuffers& buffers);
+/// Throws Failure where there are more eye paths or photon paths a pass than can be numbered.
+void check_paths(const Settings& settings);
 
 /// Appends the tiles of all pixels to `tiles`, and adds to the statistics what they took. `scene`:
 /// the table of scene buffers. Returns false when interrupted.

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "failure.hpp"
+#include "fingerprint.hpp"
 
 namespace ppm::render {
 namespace {
@@ -12,6 +13,16 @@ namespace {
 }
 
 }  // namespace
+
+std::uint64_t film_fingerprint(const Settings& settings, const shared::SceneConstants& constants,
+                               const scene::Scene& scene) {
+  Hash hash;
+  hash.add(settings.integrator.data(), settings.integrator.size());
+  hash.add(static_cast<std::uint32_t>(settings.filter));
+  hash.add(&constants, sizeof constants);
+  add_scene(hash, scene);
+  return hash.value();
+}
 
 SavedState save_film(const Film& film, const FilmState& header) {
   const std::vector<std::uint32_t> sums = film.save();

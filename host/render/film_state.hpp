@@ -10,6 +10,11 @@ struct FilmState {
   std::uint64_t passes;
 };
 
+/// Of what the film's sums depend on: method, filter, picture, camera and scene, whose arrays must
+/// not have been released.
+std::uint64_t film_fingerprint(const Settings& settings, const shared::SceneConstants& constants,
+                               const scene::Scene& scene);
+
 SavedState save_film(const Film& film, const FilmState& header);
 
 /// Returns the number of passes. Throws Failure where the state is cut short or of something else.

@@ -116,7 +116,6 @@ MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene
   statistics_.seconds["upload"] = buffers_.upload_seconds();
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
-  require_light(buffers_, scene);
 }
 
 bool MltIntegrator::run(std::uint32_t step, std::uint32_t phase, std::uint32_t paths,

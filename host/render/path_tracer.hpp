@@ -3,13 +3,12 @@
 // pixel.
 #pragma once
 
-#include <array>
-
 #include "counters.hpp"
 #include "device_batch.hpp"
 #include "film.hpp"
 #include "integrator.hpp"
 #include "scene_buffers.hpp"
+#include "tracing_rounds.hpp"
 
 namespace ppm::render {
 
@@ -31,8 +30,6 @@ class PathTracer final : public Integrator {
   /// Traces paths [first, first + paths) of a batch that begins with the next pass.
   void trace(std::uint32_t first, std::uint32_t paths);
   void record_rounds(gpu::Recorder& recorder, std::uint32_t first, std::uint32_t paths);
-  void learn(std::uint32_t paths);
-  std::uint64_t fingerprint() const;
 
   Settings settings_;
   const scene::Scene& scene_;
@@ -47,11 +44,7 @@ class PathTracer final : public Integrator {
   Counters counters_;
   Film film_;
   Statistics statistics_;
-
-  std::uint32_t rounds_ = 0;                          // recorded last
-  std::uint32_t traced_ = 0;                          // rounds of the range before those
-  std::uint32_t usual_rounds_;                        // by experience
-  std::array<double, PPM_TRACE_ROUNDS> usual_alive_;  // share of the paths, idem
+  TracingRounds rounds_;
 };
 
 }  // namespace ppm::render

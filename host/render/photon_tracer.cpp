@@ -12,17 +12,7 @@
 namespace ppm::render {
 namespace {
 
-// Before anything is known: rounds to record, the share of paths that survive each, photons a path.
-constexpr std::uint32_t kFirstRounds = 16;
-constexpr double kFirstSurvival = 0.7;
-constexpr double kFirstPhotons = 4.0;
-// Rounds recorded beyond the usual ones: they cost less than a look from the host.
-constexpr std::uint32_t kSpareRounds = 2;
-static_assert(PPM_TRACE_ROUNDS % 2 == 0, "paths that are left must lie in the first queue");
-
-std::uint32_t even(std::uint32_t rounds) {
-  return std::clamp((rounds + 1) / 2 * 2, 2u, std::uint32_t{PPM_TRACE_ROUNDS});
-}
+constexpr double kFirstPhotons = 4.0;  // a path, before anything is known
 
 }  // namespace
 
@@ -42,16 +32,10 @@ PhotonTracer::PhotonTracer(gpu::Device& device, const gpu::BindingTable& scene,
       flux_(device, "photon fluxes", photon_capacity * 16, gpu::Usage::storage_and_texels),
       batch_(device),
       counters_(device),
-      usual_rounds_(kFirstRounds),
       usual_photons_(kFirstPhotons) {
   bind_photons(table_);
   batch_.bind(table_);
   counters_.bind(table_);
-  double share = 1.0;
-  for (double& usual : usual_alive_) {
-    usual = share;
-    share *= kFirstSurvival;
-  }
 }
 
 void PhotonTracer::bind_photons(gpu::BindingTable& table) const {
@@ -73,8 +57,7 @@ void PhotonTracer::record(gpu::Recorder& recorder, const PathRange& range) {
                  std::uint64_t{range.paths} * range.passes <= path_capacity_,
              std::to_string(range.passes) + " passes of " + std::to_string(range.paths) + " paths");
   range_ = range;
-  rounds_ = usual_rounds_;
-  traced_ = 0;
+  rounds_.begin();
   batch_.begin(recorder, range.paths * range.passes);
   counters_.clear(recorder);
   record_rounds(recorder);
@@ -91,14 +74,12 @@ void PhotonTracer::record_rounds(gpu::Recorder& recorder) {
   push.path_capacity = static_cast<std::uint32_t>(path_capacity_);
   push.stream = range_.stream;
   const std::uint32_t all = range_.paths * range_.passes;
-  for (push.round = 0; push.round < rounds_; ++push.round) {
-    push.generate = traced_ + push.round == 0 ? 1 : 0;
+  for (push.round = 0; push.round < rounds_.count(); ++push.round) {
+    push.generate = rounds_.starts_paths(push.round) ? 1 : 0;
     table_.set(PPM_BIND_PATHS_IN, queue_[push.round % 2]);
     table_.set(PPM_BIND_PATHS_OUT, queue_[(push.round + 1) % 2]);
-    const double share =
-        usual_alive_[std::min<std::uint32_t>(traced_ + push.round, PPM_TRACE_ROUNDS - 1)];
     recorder.dispatch(kernel_, table_, push,
-                      batch_.alive(push.round, all, static_cast<std::uint64_t>(share * all)));
+                      batch_.alive(push.round, all, rounds_.expected(push.round, all)));
   }
   batch_.read(recorder);
   counters_.read(recorder);
@@ -111,8 +92,8 @@ PhotonTracer::Result PhotonTracer::finish(const std::function<bool()>& interrupt
     if (!has_more()) return Result::done;
     if (interrupted()) return Result::interrupted;
     device_.run([&](gpu::Recorder& recorder) {
-      batch_.begin_again(recorder, rounds_);
-      traced_ += rounds_;
+      batch_.begin_again(recorder, rounds_.count());
+      rounds_.go_on();
       record_rounds(recorder);
     });
   }
@@ -120,12 +101,7 @@ PhotonTracer::Result PhotonTracer::finish(const std::function<bool()>& interrupt
 
 // What the rounds that have run say about the next range's.
 void PhotonTracer::learn() {
-  const double all = std::max(range_.paths * range_.passes, 1u);
-  std::uint32_t used = 0;
-  for (; used < rounds_ && batch_->alive[used] > 0; ++used) {
-    if (traced_ + used < PPM_TRACE_ROUNDS) usual_alive_[traced_ + used] = batch_->alive[used] / all;
-  }
-  usual_rounds_ = even(traced_ + used + kSpareRounds);
+  rounds_.learn(batch_, range_.paths * range_.passes);
   if (!has_more()) usual_photons_ = batch_->photons[0] / std::max<double>(range_.paths, 1.0);
 }
 

@@ -1,7 +1,6 @@
 // The photon tracing pass: paths from the lights, photons where they land.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "device_batch.hpp"
 #include "kernel.hpp"
 #include "scene_traits.hpp"
+#include "tracing_rounds.hpp"
 
 namespace ppm::render {
 
@@ -41,7 +41,7 @@ class PhotonTracer {
                std::uint32_t paths, const std::function<bool()>& interrupted);
 
   /// Whether paths were alive or photons too many when the rounds recorded last had run.
-  bool has_more() const { return batch_->alive[rounds_] > 0; }
+  bool has_more() const { return batch_->alive[rounds_.count()] > 0; }
   bool overflowed() const;
 
   std::uint32_t photon_count() const { return batch_->photons[0]; }  ///< of a range of one pass
@@ -52,8 +52,8 @@ class PhotonTracer {
   /// Photons that one pass of `paths` paths is likely to store.
   std::uint64_t expected_photons(std::uint64_t paths) const;
   std::uint64_t path_capacity() const { return path_capacity_; }
-  std::uint32_t rounds() const { return rounds_; }        ///< that were recorded last
-  const Counters& counters() const { return counters_; }  ///< of the last range
+  std::uint32_t rounds() const { return rounds_.count(); }  ///< that were recorded last
+  const Counters& counters() const { return counters_; }    ///< of the last range
   DeviceBatch& batch() { return batch_; }
   const DeviceBatch& batch() const { return batch_; }
   void bind_photons(gpu::BindingTable& table) const;
@@ -71,11 +71,8 @@ class PhotonTracer {
   Counters counters_;
 
   PathRange range_{};
-  std::uint32_t rounds_ = 0;                          // recorded last
-  std::uint32_t traced_ = 0;                          // rounds of the range before those
-  std::uint32_t usual_rounds_;                        // by experience
-  std::array<double, PPM_TRACE_ROUNDS> usual_alive_;  // share of the paths, idem
-  double usual_photons_;                              // a path, idem
+  TracingRounds rounds_;
+  double usual_photons_;  // a path, by experience
 };
 
 }  // namespace ppm::render

@@ -89,7 +89,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
   tracer_.bind_photons(photons_);
-  check_paths(settings, scene, buffers_);
+  check_paths(settings);
 }
 
 bool PhotonMapIntegrator::prepare(const std::function<bool()>& interrupted) {

@@ -48,7 +48,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
   statistics_.triangles = scene.triangles.size();
   statistics_.lights = buffers_.light_count();
   tracer_.bind_photons(photons_);
-  check_paths(settings, scene, buffers_);
+  check_paths(settings);
 }
 
 bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {

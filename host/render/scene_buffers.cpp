@@ -114,11 +114,6 @@ gpu::Buffer texel_buffer(gpu::Device& device, const char* name,
   return gpu::make_buffer(device, name, std::span<const Record>(records), gpu::Usage::texels);
 }
 
-[[noreturn]] void refuse_darkness(const scene::Scene& scene) {
-  throw Failure(scene.file, "", "nothing in the scene gives off light",
-                "add a light or an emissive material to it, or give --env FILE.hdr");
-}
-
 }  // namespace
 
 bool may_need_segments(const scene::Scene& scene, gpu::SegmentSize size) {
@@ -201,12 +196,10 @@ void SceneBuffers::upload_triangles(const scene::Scene& scene, std::span<const s
       [&](std::size_t slot) { return detail_record(scene.details[order[slot]]); });
 }
 
-void require_light(const SceneBuffers& buffers, const scene::Scene& scene) {
-  if (buffers.light_count() == 0) refuse_darkness(scene);
-}
-
 void require_light(const scene::Scene& scene) {
-  if (!gives_off_light(scene)) refuse_darkness(scene);
+  if (gives_off_light(scene)) return;
+  throw Failure(scene.file, "", "nothing in the scene gives off light",
+                "add a light or an emissive material to it, or give --env FILE.hdr");
 }
 
 void SceneBuffers::upload_textures(const scene::Scene& scene, gpu::Device& device) {

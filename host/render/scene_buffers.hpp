@@ -64,6 +64,5 @@ class SceneBuffers {
 
 /// Throws Failure where nothing gives off light; of a scene, before anything is made of it.
 void require_light(const scene::Scene& scene);
-void require_light(const SceneBuffers& buffers, const scene::Scene& scene);
 
 }  // namespace ppm::render
