@@ -20,6 +20,7 @@ std::string remedy_for(const render::MemoryPlan& plan) {
   if (largest.starts_with("hit points") || largest == "picture") {
     return "make the picture smaller or lower --spp";
   }
+  if (largest == "checkpoint") return "make the picture smaller or do without --checkpoint";
   if (largest == "film") {
     return "make the picture smaller";
   }

@@ -55,6 +55,9 @@ scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLi
     }
     render::MemoryPlan plan = render::memory_plan(size, settings, render::PassLimits::of_cpu());
     plan.is_complete = scene != nullptr;
+    if (!options.run.checkpoint.empty()) {
+      plan.parts.push_back(render::checkpoint_memory(settings, render::PassLimits::of_cpu()));
+    }
     check_memory(options.scene.string(), plan, limits);
   };
   return load;

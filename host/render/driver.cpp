@@ -29,6 +29,11 @@ extern "C" void note_interruption(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
+/// Not the second one: a terminal that goes away sends it, and the shell once more.
+extern "C" void note_hangup(int) {
+  interruption_requested = true;
+}
+
 /// Of all that makes the picture doubtful. Clamped normal factors do not: every picture of coarse
 /// meshes has some.
 void warn_of_losses(const Statistics& statistics, Log& log) {
@@ -65,11 +70,17 @@ Interruption::Interruption() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler == SIG_IGN) return;  // nohup
+  action.sa_handler = note_hangup;
+  sigaction(SIGHUP, &action, nullptr);
 }
 
 Interruption::~Interruption() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool Interruption::requested() const {

@@ -17,8 +17,8 @@
 
 namespace ppm::render {
 
-/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program at
-/// once. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP (its terminal went away) is only noted; a
+/// second SIGINT or SIGTERM ends the program at once. One at a time.
 class Interruption {
  public:
   Interruption();

@@ -161,6 +161,19 @@ MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
   return plan;
 }
 
+MemoryPart checkpoint_memory(const Settings& settings, const PassLimits& limits) {
+  constexpr std::uint64_t kSavedHitBytes = sizeof(glm::vec4) + sizeof(std::uint32_t);
+  std::uint64_t state = 0;
+  for (const MemoryPart& part : method_memory(settings, limits)) {
+    if (part.name == "film" || part.name == "photon map") state += part.bytes;
+  }
+  if (method_named(settings.integrator).has_option("--alpha")) {
+    state += kSavedHitBytes * share(kHitsAPath, std::uint64_t{settings.width} * settings.height *
+                                                    settings.samples_per_pixel);
+  }
+  return {"checkpoint", 2 * state, false, Phase::render, Phase::render};
+}
+
 const MemoryPart& largest_part(const MemoryPlan& plan) {
   return *parts_at_peak(plan).front();
 }

@@ -45,6 +45,10 @@ std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& l
 MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
                        const PassLimits& limits);
 
+/// What a checkpoint takes on top of that while it is written or restored: the method's state, as
+/// it comes from the device and as it goes to the disk.
+MemoryPart checkpoint_memory(const Settings& settings, const PassLimits& limits);
+
 /// Of those that are held at the peak.
 const MemoryPart& largest_part(const MemoryPlan& plan);
 /// "triangles 1.4 GiB, textures 320 MiB": the parts that are held at the peak, the largest first.

@@ -125,7 +125,7 @@ TEST_F(CliResume, KilledAtAnyMomentItGoesOnToTheSameBytes) {
 }
 
 TEST_F(CliResume, InterruptedItKeepsPictureAndCheckpoint) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     std::filesystem::remove(folder_ / "c");
     Words words = kept({"--passes", kEndless});
     *std::ranges::find(words, "0.0001") = "1h";
@@ -142,6 +142,34 @@ TEST_F(CliResume, InterruptedItKeepsPictureAndCheckpoint) {
     EXPECT_EQ(file_text(folder_ / "p.exr"), one_go({"--passes", total}));
     EXPECT_EQ(kept_passes(), passes + 3);
   }
+}
+
+// Whoever asks twice does not wait; what was whole stays so.
+TEST_F(CliResume, ASecondInterruptionEndsAtOnce) {
+  for (int round = 0; round < 3; ++round) {
+    std::filesystem::remove(folder_ / "c");
+    Program program(kept({"--passes", kEndless}));
+    ASSERT_TRUE(program.wait_for("\"passes\":2"));
+    program.send(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * round));
+    program.send(SIGINT);
+    const Result result = program.finish();
+    EXPECT_TRUE(result.signal == SIGINT || result.exit_code == 130) << result.err;
+    EXPECT_GE(kept_passes(), 1u);
+    if (std::filesystem::exists(folder_ / "o.exr")) {
+      EXPECT_EQ(read_picture(folder_ / "o.exr").spec.width, 16);
+    }
+  }
+}
+
+// As nohup starts it.
+TEST_F(CliResume, AnIgnoredHangupStaysIgnored) {
+  Program program(kept({"--passes", kEndless}), [] { signal(SIGHUP, SIG_IGN); });
+  ASSERT_TRUE(program.wait_for("\"passes\":2"));
+  program.send(SIGHUP);
+  ASSERT_TRUE(program.wait_for("\"passes\":16"));
+  program.send(SIGTERM);
+  EXPECT_EQ(program.finish().exit_code, 130);
 }
 
 TEST_F(CliResume, OtherMethodsGoOnAsWell) {

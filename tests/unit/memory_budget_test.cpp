@@ -118,6 +118,18 @@ TEST(MemoryPlan, FollowsTheMethod) {
   EXPECT_TRUE(contains(film, "make the picture smaller")) << film;
 }
 
+// Twice what is kept of a pixel, or of a hit point.
+TEST(MemoryPlan, CheckpointsAreAsLargeAsTheState) {
+  render::Settings settings;
+  const render::PassLimits limits = render::PassLimits::of_cpu();
+  const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+  EXPECT_EQ(render::checkpoint_memory(settings, limits).bytes, 2 * 20 * 5 * pixels);
+  settings.integrator = "bdpt";
+  EXPECT_EQ(render::checkpoint_memory(settings, limits).bytes, 2 * 72 * pixels);
+  settings.integrator = "pm";
+  EXPECT_GE(render::checkpoint_memory(settings, limits).bytes, 2 * 32 * settings.map_photons);
+}
+
 // 32 bytes a photon, as many again of one grid to sort it by, and tables of cells; a grid holds
 // what a buffer of 128 MiB does.
 TEST(MemoryPlan, GrowsWithThePhotonMap) {
