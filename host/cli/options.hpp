@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glm/glm.hpp"
+#include "image.hpp"
 #include "integrator.hpp"
 #include "load_gltf.hpp"
 #include "log.hpp"
@@ -42,7 +43,7 @@ struct RenderOptions {
   std::string camera;               ///< name or index, empty: the first
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
   std::optional<double> camera_fov;  ///< full vertical angle, degrees
-  double exposure = 0.0;
+  image::Encoding encoding;
   std::filesystem::path stats;
   unsigned threads = 0;                        ///< host threads, 0: all
   std::optional<std::uint64_t> memory_budget;  ///< bytes; nothing: what the machine has

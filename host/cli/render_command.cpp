@@ -35,7 +35,7 @@ int exit_code(render::Outcome outcome, const gpu::Device& device) {
 render::Outputs outputs_for(const RenderOptions& options) {
   render::Outputs outputs;
   outputs.pictures = options.outputs;
-  outputs.exposure = options.exposure;
+  outputs.encoding = options.encoding;
   outputs.statistics = options.stats;
   outputs.keeping = {options.run.checkpoint, options.run.checkpoint_seconds, options.run.words, {}};
   outputs.preview = options.run.preview;

@@ -36,10 +36,23 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
       ->allow_extra_args(false);
   declare.text("--stats", "FILE.json", "write what was done and how long it took",
                [&](const std::string& value) { options.stats = value; });
-  declare.real("--exposure", "EV", options.exposure, "a number from -100 to 100",
-               fmt::format("PNG: radiance is multiplied by 2^EV, then clipped (default {})",
-                           options.exposure),
-               [](double value) { return std::abs(value) <= 100.0; });
+  declare.real(
+      "--exposure", "EV", options.encoding.exposure, "a number from -100 to 100",
+      fmt::format("PNG: radiance is multiplied by 2^EV (default {})", options.encoding.exposure),
+      [](double value) { return std::abs(value) <= 100.0; });
+  declare.text("--tone", "NAME",
+               fmt::format("PNG: tone curve, one of {} (default linear: clipped)",
+                           fmt::join(image::tone_names(), ", ")),
+               [&](const std::string& value) {
+                 const std::optional<image::Tone> tone = image::tone_named(value);
+                 if (!tone) {
+                   throw refusal("--tone", value,
+                                 fmt::format("one of {}", fmt::join(image::tone_names(), ", ")));
+                 }
+                 options.encoding.tone = *tone;
+               });
+  declare.flag("--half", "EXR: 16-bit floats; what is above 65504 is written as 65504",
+               [&] { options.encoding.half = true; });
 }
 
 void declare_radius(Declarer& declare, render::Settings& settings) {

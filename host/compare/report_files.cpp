@@ -56,7 +56,7 @@ class ReportWriter {
   }
   /// pictures/NAME.exr and .png; the PNG's bytes.
   std::string write_picture(const std::string& name, const std::vector<float>& rgb) const {
-    image::write(folder_.path() / "pictures" / (name + ".exr"), {width_, height_, rgb}, 0.0, {});
+    image::write(folder_.path() / "pictures" / (name + ".exr"), {width_, height_, rgb}, {}, {});
     const std::string png = png_of(rgb);
     write_text("pictures/" + name + ".png", png);
     return png;

@@ -128,7 +128,7 @@ void Run::keep() {
   kept.photons_emitted = statistics.photons_emitted;
   kept.photons_stored = statistics.photons_stored;
   kept.rays = statistics.eye_rays + statistics.photon_rays;
-  image::write(folder_ / kept.file, {picture.width, picture.height, picture.rgb}, 0.0,
+  image::write(folder_ / kept.file, {picture.width, picture.height, picture.rgb}, {},
                render::picture_attributes(settings_, stage_.circumstances, statistics));
   record_.pictures.push_back(kept);
 }

@@ -37,15 +37,24 @@ Format format_or_failure(const std::filesystem::path& file) {
   return *format;
 }
 
+/// Never an infinity: the largest finite half instead. NaN stays NaN.
+float half_value(float radiance) {
+  constexpr float kLargest = 65504.0f;
+  return std::isnan(radiance) ? radiance : std::clamp(radiance, -kLargest, kLargest);
+}
+
 /// RGBE holds neither signs nor infinities; its largest value is a little below 2^127.
 float rgbe_value(float radiance) {
   constexpr float kLargest = 1.6e38f;
   return radiance > 0.0f ? std::min(radiance, kLargest) : 0.0f;
 }
 
-OIIO::ImageSpec spec_for(Format format, const View& picture,
+OIIO::ImageSpec spec_for(Format format, const View& picture, const Encoding& encoding,
                          const std::vector<Attribute>& attributes) {
-  const auto type = format == Format::png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+  const bool half = format == Format::exr && encoding.half;
+  const auto type = format == Format::png ? OIIO::TypeDesc::UINT8
+                    : half                ? OIIO::TypeDesc::HALF
+                                          : OIIO::TypeDesc::FLOAT;
   OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height), 3, type);
   spec.attribute("oiio:ColorSpace", format == Format::png ? "sRGB" : "Linear");
   if (format != Format::exr) return spec;
@@ -68,17 +77,28 @@ OIIO::ImageSpec spec_for(Format format, const View& picture,
 /// code.
 std::vector<unsigned char> encode(Format format, const OIIO::ImageSpec& spec, const void* pixels,
                                   const std::filesystem::path& file) {
+  // EXR and HDR are given floats, whatever they hold.
+  const auto given = format == Format::png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
   const char* name = format == Format::exr ? "exr" : format == Format::hdr ? "hdr" : "png";
   OIIO::Filesystem::IOVecOutput memory;
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   const bool written = output && output->set_ioproxy(&memory) &&
                        output->open(std::string("picture.") + name, spec) &&
-                       output->write_image(spec.format, pixels) && output->close();
+                       output->write_image(given, pixels) && output->close();
   if (!written) {
     const std::string cause = output ? output->geterror() : OIIO::geterror();
     throw Failure(file.string(), "cannot encode the picture", cause, "try another format");
   }
   return memory.buffer();
+}
+
+std::uint8_t srgb_code(double value) {
+  if (!(value > 0.0)) return 0;  // NaN too
+  if (value >= 1.0) return 255;
+  // IEC 61966-2-1.
+  const double encoded =
+      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
 }  // namespace
@@ -93,40 +113,46 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 std::uint8_t srgb_byte(float radiance, double exposure) {
-  const double value = static_cast<double>(radiance) * std::exp2(exposure);
-  if (!(value > 0.0)) return 0;  // NaN too
-  if (value >= 1.0) return 255;
-  // IEC 61966-2-1.
-  const double encoded =
-      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+  return srgb_code(static_cast<double>(radiance) * std::exp2(exposure));
+}
+
+std::vector<std::uint8_t> srgb_bytes(std::span<const float> rgb, const Encoding& encoding) {
+  const double scale = std::exp2(encoding.exposure);
+  std::vector<std::uint8_t> bytes(rgb.size());
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    const Rgb shown = tone_mapped(encoding.tone, {static_cast<double>(rgb[i]) * scale,
+                                                  static_cast<double>(rgb[i + 1]) * scale,
+                                                  static_cast<double>(rgb[i + 2]) * scale});
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      bytes[i + channel] = srgb_code(shown[channel]);
+    }
+  }
+  return bytes;
 }
 
 std::string encode_png(std::uint32_t width, std::uint32_t height,
                        std::span<const std::uint8_t> rgb) {
   PPM_ASSERT(rgb.size() == std::size_t{3} * width * height && !rgb.empty(),
              std::to_string(rgb.size()));
-  const OIIO::ImageSpec spec = spec_for(Format::png, {width, height, {}}, {});
+  const OIIO::ImageSpec spec = spec_for(Format::png, {width, height, {}}, {}, {});
   const auto bytes = encode(Format::png, spec, rgb.data(), "PNG");
   return {bytes.begin(), bytes.end()};
 }
 
-void write(const std::filesystem::path& file, const View& picture, double exposure,
+void write(const std::filesystem::path& file, const View& picture, const Encoding& encoding,
            const std::vector<Attribute>& attributes) {
   const Format format = format_or_failure(file);
   const std::size_t count = std::size_t{3} * picture.width * picture.height;
   PPM_ASSERT(picture.rgb.size() == count && count > 0, std::to_string(picture.rgb.size()));
 
-  const OIIO::ImageSpec spec = spec_for(format, picture, attributes);
+  const OIIO::ImageSpec spec = spec_for(format, picture, encoding, attributes);
   std::vector<unsigned char> bytes;
   if (format == Format::png) {
-    std::vector<std::uint8_t> pixels(count);
-    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(),
-                   [&](float radiance) { return srgb_byte(radiance, exposure); });
-    bytes = encode(format, spec, pixels.data(), file);
-  } else if (format == Format::hdr) {
+    bytes = encode(format, spec, srgb_bytes(picture.rgb, encoding).data(), file);
+  } else if (format == Format::hdr || encoding.half) {
     std::vector<float> pixels(count);
-    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(), rgbe_value);
+    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(),
+                   format == Format::hdr ? rgbe_value : half_value);
     bytes = encode(format, spec, pixels.data(), file);
   } else {
     bytes = encode(format, spec, picture.rgb.data(), file);

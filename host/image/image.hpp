@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "tone.hpp"
+
 namespace ppm::image {
 
 /// Named facts stored with a picture where the format can hold them (EXR: one attribute each).
@@ -18,6 +20,13 @@ using Attribute = std::pair<std::string, std::variant<int, double, std::string>>
 struct View {
   std::uint32_t width = 0, height = 0;
   std::span<const float> rgb;
+};
+
+/// How a picture is put into files; each matters to some formats alone.
+struct Encoding {
+  double exposure = 0.0;     ///< PNG: radiance times 2^exposure
+  Tone tone = Tone::linear;  ///< PNG
+  bool half = false;         ///< EXR: 16-bit floats instead of 32
 };
 
 /// Whether the extension is .exr, .png or .hdr, without regard to case.
@@ -31,14 +40,20 @@ void check_writable(const std::filesystem::path& file);
 /// nearest; 0 for NaN.
 std::uint8_t srgb_byte(float radiance, double exposure);
 
+/// The bytes a PNG holds for a picture, 3 a pixel: exposed, tone-mapped, clipped and encoded like
+/// srgb_byte.
+std::vector<std::uint8_t> srgb_bytes(std::span<const float> rgb, const Encoding& encoding);
+
 /// A whole PNG file of 8-bit sRGB codes, row-major from the top, 3 * width * height bytes.
 std::string encode_png(std::uint32_t width, std::uint32_t height,
                        std::span<const std::uint8_t> rgb);
 
-/// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: 32-bit float
-/// channels R, G, B, ZIP, attributes; HDR: RGBE, negative and NaN as 0; PNG: 8 bits, srgb_byte. The
-/// same picture, attributes and exposure give the same bytes. Throws Failure naming the file.
-void write(const std::filesystem::path& file, const View& picture, double exposure,
+/// Writes the file whole or not at all (a temporary beside it, then a rename). EXR: channels R,
+/// G, B of 32-bit floats, or of 16 bits, where what is larger than 65504 is written as 65504; ZIP,
+/// attributes; HDR: RGBE, negative and NaN as 0; PNG: 8 bits,
+/// srgb_bytes. The same picture, attributes and encoding give the same bytes. Throws Failure naming
+/// the file.
+void write(const std::filesystem::path& file, const View& picture, const Encoding& encoding,
            const std::vector<Attribute>& attributes);
 
 }  // namespace ppm::image

@@ -40,7 +40,7 @@ struct Budget {
 /// Where the results go.
 struct Outputs {
   std::vector<std::filesystem::path> pictures;
-  double exposure = 0.0;             ///< PNG only, powers of two
+  image::Encoding encoding;
   std::filesystem::path statistics;  ///< JSON; empty: none
   Keeping keeping;
   std::filesystem::path preview;  ///< a picture, too; empty: none

@@ -165,7 +165,7 @@ void Session::show_last(const Picture& picture) {
 }
 
 void Session::write_picture(const std::filesystem::path& file, const Picture& picture) {
-  image::write(file, {picture.width, picture.height, picture.rgb}, outputs_.exposure,
+  image::write(file, {picture.width, picture.height, picture.rgb}, outputs_.encoding,
                picture_attributes(settings_, circumstances_, statistics()));
 }
 

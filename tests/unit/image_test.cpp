@@ -34,7 +34,7 @@ const View kPicture{3, 2, kPixels};
 
 TEST(Image, ExrHoldsTheVeryFloatsAndTheAttributes) {
   const TemporaryFolder folder;
-  write(folder / "p.exr", kPicture, 3.0,
+  write(folder / "p.exr", kPicture, {3.0},
         {{"ppm-vk:passes", 7}, {"ppm-vk:alpha", 0.7}, {"ppm-vk:device", "llvmpipe"}});
   const PictureFile read = read_picture(folder / "p.exr");
   EXPECT_EQ(read.spec.width, 3);
@@ -50,9 +50,29 @@ TEST(Image, ExrHoldsTheVeryFloatsAndTheAttributes) {
   EXPECT_EQ(read.spec.get_string_attribute("ppm-vk:device"), "llvmpipe");
 }
 
+TEST(Image, HalvesAreTheNearestAndNeverInfinite) {
+  const TemporaryFolder folder;
+  write(folder / "p.exr", kPicture, {0.0, Tone::linear, true}, {});
+  const PictureFile read = read_picture(folder / "p.exr");
+  EXPECT_EQ(read.spec.format, OIIO::TypeDesc::HALF);
+  EXPECT_EQ(read.spec.channelnames, (std::vector<std::string>{"R", "G", "B"}));
+  ASSERT_EQ(read.values.size(), kPixels.size());
+  for (std::size_t i = 0; i < kPixels.size(); ++i) {
+    // 11 bits of mantissa, the first of them implied.
+    EXPECT_NEAR(read.values[i], kPixels[i], kPixels[i] / 2048.0f) << i;
+  }
+  const std::vector<float> extremes = {kInfinity, 1e30f, 65504.0f, -kInfinity, 65520.0f, kNaN};
+  write(folder / "e.exr", {2, 1, extremes}, {0.0, Tone::linear, true}, {});
+  const std::vector<float> held = read_picture(folder / "e.exr").values;
+  ASSERT_EQ(held.size(), 6u);
+  for (const std::size_t i : {0u, 1u, 2u, 4u}) EXPECT_EQ(held[i], 65504.0f) << i;
+  EXPECT_EQ(held[3], -65504.0f);
+  EXPECT_TRUE(std::isnan(held[5]));
+}
+
 TEST(Image, HdrHoldsEightBitsOfEachPixelsLargestChannel) {
   const TemporaryFolder folder;
-  write(folder / "p.hdr", kPicture, 3.0, {});
+  write(folder / "p.hdr", kPicture, {3.0}, {});
   const PictureFile read = read_picture(folder / "p.hdr");
   ASSERT_EQ(read.values.size(), kPixels.size());
   for (std::size_t i = 0; i < kPixels.size(); ++i) {
@@ -66,7 +86,7 @@ TEST(Image, HdrHoldsEightBitsOfEachPixelsLargestChannel) {
 TEST(Image, HdrStandsWhatItCannotHold) {
   const TemporaryFolder folder;
   const std::vector<float> pixels = {kNaN, -1.0f, 0.5f, kInfinity, 1.0f, 3e38f};
-  write(folder / "p.hdr", {2, 1, pixels}, 0.0, {});
+  write(folder / "p.hdr", {2, 1, pixels}, {}, {});
   const PictureFile read = read_picture(folder / "p.hdr");
   ASSERT_EQ(read.values.size(), 6u);
   EXPECT_EQ(read.values[0], 0.0f);
@@ -78,7 +98,7 @@ TEST(Image, HdrStandsWhatItCannotHold) {
 
 TEST(Image, PngIsSrgbOfTheExposedRadiance) {
   const TemporaryFolder folder;
-  write(folder / "p.png", kPicture, 1.0, {});
+  write(folder / "p.png", kPicture, {1.0}, {});
   const PictureFile read = read_picture(folder / "p.png");
   EXPECT_EQ(read.spec.format, OIIO::TypeDesc::UINT8);
   EXPECT_EQ(read.spec.get_string_attribute("oiio:ColorSpace"), "sRGB");
@@ -119,11 +139,11 @@ TEST(Image, SameInputSameBytesLater) {
   const TemporaryFolder folder;
   const std::vector<Attribute> attributes = {{"ppm-vk:seed", 1}};
   for (const char* name : {"a.exr", "a.hdr", "a.png"})
-    write(folder / name, kPicture, 0.0, attributes);
+    write(folder / name, kPicture, {}, attributes);
   // Times of day in headers count in seconds.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   for (const char* name : {"b.exr", "b.hdr", "b.png"})
-    write(folder / name, kPicture, 0.0, attributes);
+    write(folder / name, kPicture, {}, attributes);
   for (const char* extension : {".exr", ".hdr", ".png"}) {
     EXPECT_EQ(file_text(folder / (std::string("a") + extension)),
               file_text(folder / (std::string("b") + extension)))
@@ -159,7 +179,7 @@ TEST(Image, WhatCannotBeWrittenIsNamed) {
         std::filesystem::path("/proc/p.exr"), folder / "folder.exr" / ""}) {
     for (const bool whole : {false, true}) {
       try {
-        whole ? write(file, kPicture, 0.0, {}) : check_writable(file);
+        whole ? write(file, kPicture, {}, {}) : check_writable(file);
         ADD_FAILURE() << file;
       } catch (const Failure& failure) {
         EXPECT_EQ(std::string(failure.what()).rfind(file.string() + ": ", 0), 0u) << failure.what();

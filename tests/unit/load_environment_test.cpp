@@ -53,7 +53,7 @@ TEST(LoadEnvironment, ReadsExrAndHdr) {
   const TemporaryFolder folder;
   const std::vector<float> values = ramp(8, 4);
   for (const char* name : {"sky.exr", "sky.HDR"}) {
-    image::write(folder / name, {8, 4, values}, 0.0, {});
+    image::write(folder / name, {8, 4, values}, {}, {});
     Log log(Verbosity::quiet);
     const Environment environment = load_environment(folder / name, log);
     EXPECT_EQ(environment.width, 8u);
@@ -80,7 +80,7 @@ TEST(LoadEnvironment, ClampsWhatIsNoRadiance) {
   values[5] = -kInfinity;
   values[8] = kInfinity;
   values[23] = 1e30f;
-  image::write(folder / "sky.exr", {4, 2, values}, 0.0, {});
+  image::write(folder / "sky.exr", {4, 2, values}, {}, {});
   Log log(Verbosity::quiet);
   const Environment environment = load_environment(folder / "sky.exr", log);
   EXPECT_EQ(environment.texels[0].x, 0.0f);
@@ -94,9 +94,9 @@ TEST(LoadEnvironment, ClampsWhatIsNoRadiance) {
 
 TEST(LoadEnvironment, RefusesInOneLineThatNamesTheFile) {
   const TemporaryFolder folder;
-  image::write(folder / "square.exr", {4, 4, ramp(4, 4)}, 0.0, {});
-  image::write(folder / "good.exr", {8, 4, ramp(8, 4)}, 0.0, {});
-  image::write(folder / "good.hdr", {64, 32, ramp(64, 32)}, 0.0, {});
+  image::write(folder / "square.exr", {4, 4, ramp(4, 4)}, {}, {});
+  image::write(folder / "good.exr", {8, 4, ramp(8, 4)}, {}, {});
+  image::write(folder / "good.hdr", {64, 32, ramp(64, 32)}, {}, {});
   const std::string exr = bytes_of(folder / "good.exr"), hdr = bytes_of(folder / "good.hdr");
   write_bytes(folder / "empty.hdr", "");
   write_bytes(folder / "text.exr", "no picture at all");

@@ -179,7 +179,7 @@ TEST(MemoryBudget, RefusesByTheTotalThatInspectTells) {
   writer.mesh(test::icosphere(3), writer.material(test::emitter({1.0, 1.0, 1.0})));
   writer.camera("wide", {0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}, 0.8, 2.5);
   writer.write(folder / "s.glb");
-  image::write(folder / "sky.exr", {512, 256, std::vector<float>(512 * 256 * 3, 1.0f)}, 0.0, {});
+  image::write(folder / "sky.exr", {512, 256, std::vector<float>(512 * 256 * 3, 1.0f)}, {}, {});
   cli::RenderOptions options;
   options.scene = folder / "s.glb";
   options.load.environment = folder / "sky.exr";

@@ -66,7 +66,9 @@ TEST(Options, DefaultsAreTheDocumentedOnes) {
   EXPECT_FALSE(options.width || options.height);
   EXPECT_EQ(options.passes_or_usual(), 64u);
   EXPECT_FALSE(options.passes || options.seconds);
-  EXPECT_EQ(options.exposure, 0.0);
+  EXPECT_EQ(options.encoding.exposure, 0.0);
+  EXPECT_EQ(options.encoding.tone, image::Tone::linear);
+  EXPECT_FALSE(options.encoding.half);
   EXPECT_TRUE(options.camera.empty() && options.stats.empty() && options.device.selector.empty());
   EXPECT_FALSE(options.camera_position || options.camera_target || options.camera_up);
   EXPECT_FALSE(options.camera_fov);
@@ -158,7 +160,7 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(options.device.selector, "llvm");
   EXPECT_EQ(options.device.dispatch_milliseconds, 12.5);
   EXPECT_TRUE(options.device.validation);
-  EXPECT_EQ(options.exposure, -1.5);
+  EXPECT_EQ(options.encoding.exposure, -1.5);
   EXPECT_EQ(options.stats, "s.json");
   EXPECT_EQ(options.threads, 3u);
   EXPECT_EQ(options.verbosity, Verbosity::verbose);
@@ -184,6 +186,8 @@ TEST(Options, WordsAndQuiet) {
   EXPECT_EQ(accepted({"--radius=auto"}).settings.radius_mode, render::RadiusMode::automatic);
   EXPECT_EQ(accepted({"--filter=tent"}).settings.filter, render::Filter::tent);
   EXPECT_EQ(accepted({"--quiet"}).verbosity, Verbosity::quiet);
+  EXPECT_TRUE(accepted({"--half"}).encoding.half);
+  EXPECT_EQ(accepted({"--tone", "pbr-neutral"}).encoding.tone, image::Tone::pbr_neutral);
 }
 
 TEST(Options, OutputTakesOneFileAtATime) {
@@ -216,6 +220,7 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("--camera-up", {"0,0,0"});
   expect_value_refused("--dispatch-ms", {"0", "-5", "nan", "inf"});
   expect_value_refused("--exposure", {"nan", "inf", "101", "-101"});
+  expect_value_refused("--tone", {"ACES", "filmic", ""});
   expect_value_refused("--threads", {"-1", "4097", "all"});
   expect_value_refused("--integrator", {"magic", "PPM", ""});
   expect_value_refused("--time", {"0", "-1", "", "s", "10 s", "nan", "inf", "3d", "1e9"});

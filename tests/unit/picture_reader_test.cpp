@@ -18,13 +18,13 @@ const std::vector<float> kPixels = {0.0f,  0.25f,  0.5f, 1.0f, -0.75f, 0.1f,  1e
 
 TEST(PictureReader, FloatsComeBackToTheBit) {
   const test::TemporaryFolder folder;
-  write(folder / "p.exr", {3, 2, kPixels}, 0.0, {});
+  write(folder / "p.exr", {3, 2, kPixels}, {}, {});
   EXPECT_EQ(read_rgb(folder / "p.exr", 3, 2), kPixels);
 }
 
 TEST(PictureReader, RefusesOtherSizesAndOtherFilesInALine) {
   const test::TemporaryFolder folder;
-  write(folder / "p.exr", {3, 2, kPixels}, 0.0, {});
+  write(folder / "p.exr", {3, 2, kPixels}, {}, {});
   const std::string whole = test::file_text(folder / "p.exr");
   test::write_text(folder / "half.exr", whole.substr(0, whole.size() - 20));
   test::write_text(folder / "text.exr", "no picture");

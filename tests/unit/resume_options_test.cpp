@@ -89,7 +89,7 @@ TEST(ResumeOptions, EverythingStaysUnlessGiven) {
   EXPECT_EQ(options.settings.alpha, 0.6);
   EXPECT_EQ(options.settings.seed, 5u);
   EXPECT_EQ(options.passes, 9u);
-  EXPECT_EQ(options.exposure, -1.5);
+  EXPECT_EQ(options.encoding.exposure, -1.5);
   EXPECT_EQ(options.camera, "east");
   EXPECT_EQ(options.camera_position, glm::dvec3(-1.0, 2.0, 3.0));
   EXPECT_EQ(options.load.environment, "/x/e.hdr");
@@ -102,7 +102,7 @@ TEST(ResumeOptions, WhatIsGivenCounts) {
        "/x/s.json", "--progress", "json", "--validate"},
       {"--output=/y/q.hdr", "-o", "/y/r.exr", "--exposure", "-2", "--dispatch-ms", "7", "--quiet"});
   EXPECT_EQ(options.outputs, (std::vector<std::filesystem::path>{"/y/q.hdr", "/y/r.exr"}));
-  EXPECT_EQ(options.exposure, -2.0);
+  EXPECT_EQ(options.encoding.exposure, -2.0);
   EXPECT_EQ(options.device.dispatch_milliseconds, 7.0);
   EXPECT_EQ(options.verbosity, Verbosity::quiet);
   // Of the first session alone.
