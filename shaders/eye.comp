@@ -5,12 +5,17 @@
 // of the paths that specular reflection and transmission, both at glass, make of it, and writes the other to EYE_OUT.
 // The order of all is arbitrary; HIT_KEYS, which follow from the path alone, put hit points into canonical order
 // afterwards. CELL_COUNT counts those of each (pixel, sample).
+//
+// With kSurfaces it stores records for surfaces.comp instead: of the surface where each path ends, the first that is
+// not specular alone. HITS_0 has its position and geometric normal, HITS_1 the shading normal and the path's length,
+// HITS_2 the weight, HITS_3 the albedo.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/invocation.glsl"
 #include "lib/scene_kinds.glsl"
 
+#include "lib/albedo.glsl"
 #include "lib/counters.glsl"
 #include "lib/lights.glsl"
 #include "lib/media.glsl"
@@ -32,6 +37,7 @@ layout(binding = PPM_BIND_CELL_COUNT, scalar) buffer Counts { uint counts[]; };
 
 // Whether invocations start the eye paths of the tile, rather than going on with those of EYE_IN.
 layout(constant_id = 0) const bool kGenerate = false;
+layout(constant_id = 1) const bool kSurfaces = false;
 
 const float kLeastFootprint = 1e-15;
 const uint kMaxSplits = 32u;  // bits of EyePath::code; later splits take one branch at random
@@ -59,7 +65,7 @@ EyePath start(uint group) {
   path.skip = PPM_NO_TRIANGLE;
   path.code = 0u;
   path.splits = 0u;
-  path.distance = camera_distance(scene);
+  path.distance = kSurfaces ? 0.0 : camera_distance(scene);
   path.solid_angle = pixel_solid_angle(scene, camera_direction(scene, vec2(position) + 0.5));
   return path;
 }
@@ -107,6 +113,31 @@ void stage(EyePath path, Surface surface, vec3 radiance, bool is_hit_point, bool
     statistics[slot] = vec4(0.0, 0.0, 0.0, light ? 0.0 : square(footprint));
     hit_keys[slot] = HitKey(path.group, arrival, 2u * events + kind, path.code);
   }
+}
+
+// Whether a path that looks for surfaces ends at this one: it has more than specular lobes, or none at all.
+bool ends_at(Surface surface, vec3 direction) {
+  SpecularLobes lobes = specular_lobes(surface.bsdf, -dot(direction, surface.shading_normal));
+  return is_non_specular(surface.bsdf) || max_component(lobes.reflected + lobes.transmitted) <= 0.0;
+}
+
+// The record of that surface. Weights are of radiance over the squared index, which glass leaves at 1 or below.
+void stage_surface(EyePath path, Surface surface, inout uint records) {
+  vec3 weight = path.weight / float(push.samples);
+  if (kMedia) weight *= square(media_ior(path.media) / media_ior(camera_media()));
+  if (!is_finite3(weight) || !is_finite3(surface.position)) {
+    count_event(PPM_COUNTER_NON_FINITE);
+    return;
+  }
+  uint arrival = records++;
+  if (!kGenerate) arrival = atomicAdd(counts[path.group], 1u);
+  uint slot = atomicAdd(counters[PPM_COUNTER_HITS], 1u);
+  if (slot >= push.hit_capacity) return;  // the host sees the count and traces again
+  hits_0[slot] = uvec4(floatBitsToUint(surface.position), pack_direction(surface.geometric_normal));
+  hits_1[slot] = uvec4(pack_direction(surface.shading_normal), floatBitsToUint(path.distance), 0u, 0u);
+  hits_2[slot] = uvec4(floatBitsToUint(weight), 0u);
+  hits_3[slot] = uvec4(floatBitsToUint(albedo_of(surface.bsdf)), 0u);
+  hit_keys[slot] = HitKey(path.group, arrival, 2u * (path.state & 0xffffu), path.code);
 }
 
 // A branch that specular reflection or transmission makes of a path.
@@ -233,11 +264,17 @@ bool advance(inout EyePath path, bool last, inout uint records) {
   path.weight *= media_transmittance(path.media, hit.t);
   path.distance += hit.t;
   vec3 radiance = missed ? miss_radiance(path.direction) : surface.emission;
-  stage(path, surface, radiance, in_depth && is_non_specular(surface.bsdf), max_component(radiance) > 0.0, records);
+  bool ends = false;
+  if (kSurfaces) {
+    ends = !missed && !crossing.straight && ends_at(surface, path.direction);
+    if (ends) stage_surface(path, surface, records);
+  } else {
+    stage(path, surface, radiance, in_depth && is_non_specular(surface.bsdf), max_component(radiance) > 0.0, records);
+  }
   bool cut = in_depth && events >= scene.eye_bounce_cap;
   if (cut) count_event(PPM_COUNTER_PATHS_CUT);
 
-  Scattering scattering = scatter(path, surface, crossing, in_depth && !cut);
+  Scattering scattering = scatter(path, surface, crossing, in_depth && !cut && !ends);
   bool reflected = scattering.reflected.exists;
   bool transmitted = scattering.transmitted.exists;
   bool follow = !last && (reflected || transmitted);

@@ -10,6 +10,7 @@
 #include "glm/glm.hpp"
 #include "image.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "load_gltf.hpp"
 #include "log.hpp"
 
@@ -44,6 +45,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
   std::optional<double> camera_fov;  ///< full vertical angle, degrees
   image::Encoding encoding;
+  std::vector<render::LayerKind> layers;
   std::filesystem::path stats;
   unsigned threads = 0;                        ///< host threads, 0: all
   std::optional<std::uint64_t> memory_budget;  ///< bytes; nothing: what the machine has

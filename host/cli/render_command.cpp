@@ -36,6 +36,7 @@ render::Outputs outputs_for(const RenderOptions& options) {
   render::Outputs outputs;
   outputs.pictures = options.outputs;
   outputs.encoding = options.encoding;
+  outputs.layers = options.layers;
   outputs.statistics = options.stats;
   outputs.keeping = {options.run.checkpoint, options.run.checkpoint_seconds, options.run.words, {}};
   outputs.preview = options.run.preview;
@@ -87,7 +88,7 @@ int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
     render::check_device(outputs.keeping.file, *resumed, device.description().name,
                          device.description().driver);
   }
-  check_memory_for(scene, settings, limits, &device);
+  check_memory_for(scene, settings, limits, &device, options.layers);
   const std::unique_ptr<render::Integrator> integrator =
       render::make_integrator(settings, scene, device, log, thread_count(options.threads));
   scene::release_arrays(scene);

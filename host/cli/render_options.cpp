@@ -8,6 +8,7 @@
 
 #include "declarer.hpp"
 #include "image.hpp"
+#include "layer_options.hpp"
 #include "load_environment.hpp"
 #include "memory_budget.hpp"
 #include "run_options.hpp"
@@ -26,14 +27,15 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
            options.outputs.assign(values.begin(), values.end());
            for (const std::string& value : values) {
              if (!image::has_known_extension(value)) {
-               throw refusal("-o", value, "a file name that ends in .exr, .png or .hdr");
+               throw refusal("-o", value, "a file name that ends in .exr, .png, .hdr or .pfm");
              }
            }
          },
          "picture to write; may be repeated")
-      ->type_name("FILE.exr|.png|.hdr")
+      ->type_name("FILE.exr|.png|.hdr|.pfm")
       ->group("Files")
       ->allow_extra_args(false);
+  declare_layers(declare, options);
   declare.text("--stats", "FILE.json", "write what was done and how long it took",
                [&](const std::string& value) { options.stats = value; });
   declare.real(
@@ -278,7 +280,7 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
 
 void declare_render(CLI::App& app, RenderOptions& options) {
   app.formatter(std::make_shared<HelpFormatter>(
-      "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr [-o ...] [OPTIONS]\n"));
+      "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr|.pfm [-o ...] [OPTIONS]\n"));
   app.allow_extras();
   Declarer declare(app);
   declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
@@ -359,6 +361,7 @@ void check_render(const CLI::App& app, RenderOptions& options) {
   if (options.outputs.empty()) {
     throw CLI::ValidationError("-o", "no picture to write is given, such as -o out.exr");
   }
+  check_layers(app, options);
   if (app.count("--stats") > 0) {
     if (options.stats.empty()) throw refusal("--stats", "", "a file name");
     bool clash = same_file(options.stats, options.scene);

@@ -43,7 +43,7 @@ bool counts_samples(const std::vector<std::string>& words) {
 
 void declare_resume(CLI::App& app, ResumeOptions& options, RenderOptions& render) {
   app.formatter(std::make_shared<HelpFormatter>(
-      "Usage: ppm-vk resume CHECKPOINT [-o FILE.exr|.png|.hdr ...] [OPTIONS]\n"
+      "Usage: ppm-vk resume CHECKPOINT [-o FILE.exr|.png|.hdr|.pfm ...] [OPTIONS]\n"
       "\n"
       "Goes on where a rendering with --checkpoint stopped, and keeps the same checkpoint. All\n"
       "options are as they were unless given; those that shape the picture cannot be.\n"));

@@ -56,10 +56,11 @@ void declare_run(Declarer& declare, RenderOptions& options, bool names_checkpoin
   }
   interval(declare, "--checkpoint-every", run.checkpoint_seconds,
            fmt::format("time between two checkpoints (default {}s)", run.checkpoint_seconds));
-  declare.text("--preview", "FILE.exr|.png|.hdr", "the picture so far, from the first pass on",
+  declare.text("--preview", "FILE.exr|.png|.hdr|.pfm", "the picture so far, from the first pass on",
                [&](const std::string& value) {
                  if (!image::has_known_extension(value)) {
-                   throw refusal("--preview", value, "a file name that ends in .exr, .png or .hdr");
+                   throw refusal("--preview", value,
+                                 "a file name that ends in .exr, .png, .hdr or .pfm");
                  }
                  run.preview = value;
                });

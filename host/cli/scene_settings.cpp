@@ -27,6 +27,13 @@ void check_radius(const render::Settings& settings, const scene::Scene& scene) {
                   kSmallestRadius / scene.frame.scale, kLargestRadius / scene.frame.scale));
 }
 
+void add_layers(render::MemoryPlan& plan, const render::Settings& settings,
+                std::span<const render::LayerKind> layers) {
+  for (render::MemoryPart& part : render::layers_memory(settings, layers)) {
+    plan.parts.push_back(std::move(part));
+  }
+}
+
 }  // namespace
 
 render::Settings settings_for(const RenderOptions& options, const scene::Scene& scene, Log& log) {
@@ -54,6 +61,7 @@ scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLi
       settings.height = options.height.value_or(1);
     }
     render::MemoryPlan plan = render::memory_plan(size, settings, render::PassLimits::of_cpu());
+    add_layers(plan, settings, options.layers);
     plan.is_complete = scene != nullptr;
     if (!options.run.checkpoint.empty()) {
       plan.parts.push_back(render::checkpoint_memory(settings, render::PassLimits::of_cpu()));
@@ -64,12 +72,14 @@ scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLi
 }
 
 void check_memory_for(const scene::Scene& scene, const render::Settings& settings,
-                      MemoryLimits limits, const gpu::Device* device) {
+                      MemoryLimits limits, const gpu::Device* device,
+                      std::span<const render::LayerKind> layers) {
   if (device && !device->shares_host_memory()) limits.device = device->free_bytes();
   const render::PassLimits passes =
       device ? render::PassLimits::of(*device) : render::PassLimits::of_cpu();
-  check_memory(scene.file, render::memory_plan(scene::SceneSize::of(scene), settings, passes),
-               limits);
+  render::MemoryPlan plan = render::memory_plan(scene::SceneSize::of(scene), settings, passes);
+  add_layers(plan, settings, layers);
+  check_memory(scene.file, plan, limits);
 }
 
 unsigned thread_count(unsigned asked_for) {

@@ -19,9 +19,10 @@ MemoryLimits memory_limits_for(const RenderOptions& options);
 scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLimits& limits);
 
 /// Throws Failure where the scene, of which all is known now, does not fit the limits with these
-/// settings, on this device if there is one.
+/// settings and layers, on this device if there is one.
 void check_memory_for(const scene::Scene& scene, const render::Settings& settings,
-                      MemoryLimits limits, const gpu::Device* device);
+                      MemoryLimits limits, const gpu::Device* device,
+                      std::span<const render::LayerKind> layers = {});
 
 /// As asked for, or one for each core.
 unsigned thread_count(unsigned asked_for);

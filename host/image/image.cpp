@@ -12,11 +12,12 @@
 
 #include "failure.hpp"
 #include "output_file.hpp"
+#include "pfm.hpp"
 
 namespace ppm::image {
 namespace {
 
-enum class Format { exr, hdr, png };
+enum class Format { exr, hdr, pfm, png };
 
 /// Nothing for an extension that is none of ours. Letter case does not matter.
 std::optional<Format> format_of(const std::filesystem::path& file) {
@@ -25,6 +26,7 @@ std::optional<Format> format_of(const std::filesystem::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".exr") return Format::exr;
   if (extension == ".hdr") return Format::hdr;
+  if (extension == ".pfm") return Format::pfm;
   if (extension == ".png") return Format::png;
   return std::nullopt;
 }
@@ -32,7 +34,7 @@ std::optional<Format> format_of(const std::filesystem::path& file) {
 Format format_or_failure(const std::filesystem::path& file) {
   const std::optional<Format> format = format_of(file);
   if (!format) {
-    throw Failure(file.string(), "", "unknown kind of picture", "use .exr, .png or .hdr");
+    throw Failure(file.string(), "", "unknown kind of picture", "use .exr, .png, .hdr or .pfm");
   }
   return *format;
 }
@@ -47,6 +49,40 @@ float half_value(float radiance) {
 float rgbe_value(float radiance) {
   constexpr float kLargest = 1.6e38f;
   return radiance > 0.0f ? std::min(radiance, kLargest) : 0.0f;
+}
+
+/// The picture's own channels and those of its layers, pixel by pixel.
+std::vector<float> interleaved(const View& picture, std::span<const Layer> layers, bool half) {
+  const std::size_t pixels = std::size_t{picture.width} * picture.height;
+  std::size_t channels = 3;
+  for (const Layer& layer : layers) channels += layer.channels.size();
+  std::vector<float> values(channels * pixels);
+  std::size_t first = 0;
+  const auto add = [&](std::span<const float> from, std::size_t count, bool rounded) {
+    PPM_ASSERT(from.size() == count * pixels, std::to_string(from.size()));
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      values[i / count * channels + first + i % count] = rounded ? half_value(from[i]) : from[i];
+    }
+    first += count;
+  };
+  add(picture.rgb, 3, half);
+  for (const Layer& layer : layers) {
+    add(layer.values, layer.channels.size(), half && !layer.precise);
+  }
+  return values;
+}
+
+void add_layers(OIIO::ImageSpec& spec, std::span<const Layer> layers, bool half) {
+  if (layers.empty()) return;
+  spec.channelformats.assign(3, spec.format);
+  for (const Layer& layer : layers) {
+    for (const std::string& channel : layer.channels) {
+      spec.channelnames.push_back(channel);
+      spec.channelformats.push_back(half && !layer.precise ? OIIO::TypeDesc::HALF
+                                                           : OIIO::TypeDesc::FLOAT);
+    }
+  }
+  spec.nchannels = static_cast<int>(spec.channelnames.size());
 }
 
 OIIO::ImageSpec spec_for(Format format, const View& picture, const Encoding& encoding,
@@ -107,6 +143,17 @@ bool has_known_extension(const std::filesystem::path& file) {
   return format_of(file).has_value();
 }
 
+bool takes_layers(const std::filesystem::path& file) {
+  const std::optional<Format> format = format_of(file);
+  return format == Format::exr || format == Format::pfm;
+}
+
+std::filesystem::path layer_file(const std::filesystem::path& picture, const std::string& layer) {
+  if (format_of(picture) != Format::pfm) return picture;
+  return picture.parent_path() /
+         (picture.stem().string() + "." + layer + picture.extension().string());
+}
+
 void check_writable(const std::filesystem::path& file) {
   format_or_failure(file);
   check_creatable(file);
@@ -140,20 +187,30 @@ std::string encode_png(std::uint32_t width, std::uint32_t height,
 }
 
 void write(const std::filesystem::path& file, const View& picture, const Encoding& encoding,
-           const std::vector<Attribute>& attributes) {
+           const std::vector<Attribute>& attributes, std::span<const Layer> layers) {
   const Format format = format_or_failure(file);
   const std::size_t count = std::size_t{3} * picture.width * picture.height;
   PPM_ASSERT(picture.rgb.size() == count && count > 0, std::to_string(picture.rgb.size()));
 
-  const OIIO::ImageSpec spec = spec_for(format, picture, encoding, attributes);
+  if (format == Format::pfm) {
+    write_whole(file, pfm_file(picture.width, picture.height, 3, picture.rgb));
+    for (const Layer& layer : layers) {
+      write_whole(layer_file(file, layer.name),
+                  pfm_file(picture.width, picture.height, layer.channels.size(), layer.values));
+    }
+    return;
+  }
+  OIIO::ImageSpec spec = spec_for(format, picture, encoding, attributes);
   std::vector<unsigned char> bytes;
   if (format == Format::png) {
     bytes = encode(format, spec, srgb_bytes(picture.rgb, encoding).data(), file);
-  } else if (format == Format::hdr || encoding.half) {
+  } else if (format == Format::hdr) {
     std::vector<float> pixels(count);
-    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(),
-                   format == Format::hdr ? rgbe_value : half_value);
+    std::transform(picture.rgb.begin(), picture.rgb.end(), pixels.begin(), rgbe_value);
     bytes = encode(format, spec, pixels.data(), file);
+  } else if (encoding.half || !layers.empty()) {
+    add_layers(spec, layers, encoding.half);
+    bytes = encode(format, spec, interleaved(picture, layers, encoding.half).data(), file);
   } else {
     bytes = encode(format, spec, picture.rgb.data(), file);
   }

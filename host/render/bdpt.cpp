@@ -5,6 +5,7 @@
 #include "failure.hpp"
 #include "film_state.hpp"
 #include "stopwatch.hpp"
+#include "surface_layers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -118,6 +119,10 @@ SavedState BdptIntegrator::save_state() {
 void BdptIntegrator::restore_state(const SavedState& state) {
   const std::uint64_t fingerprint = film_fingerprint(settings_, buffers_.constants(), scene_);
   statistics_.passes = statistics_.samples = restore_film(film_, state, fingerprint);
+}
+
+std::vector<image::Layer> BdptIntegrator::layers(std::span<const LayerKind> kinds) {
+  return surface_layers(device_, buffers_.table(), traits_, settings_, scene_.frame, kinds);
 }
 
 const Statistics& BdptIntegrator::statistics() {

@@ -4,13 +4,14 @@
 #include "bidirectional_sampler.hpp"
 #include "film.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "scene_buffers.hpp"
 
 namespace ppm::render {
 
 /// A pass is one sample of every pixel. "lt": only light that the lens sees on surfaces, and
 /// emitters seen directly or through specular surfaces.
-class BdptIntegrator final : public Integrator {
+class BdptIntegrator final : public Integrator, public LayerSource {
  public:
   BdptIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
                  unsigned threads);
@@ -23,6 +24,7 @@ class BdptIntegrator final : public Integrator {
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
+  std::vector<image::Layer> layers(std::span<const LayerKind> kinds) override;
 
  private:
   void record(const Counters& counters);

@@ -88,7 +88,13 @@ bool Interruption::requested() const {
 }
 
 void check_outputs(const Outputs& outputs) {
-  for (const auto& file : outputs.pictures) image::check_writable(file);
+  for (const auto& file : outputs.pictures) {
+    image::check_writable(file);
+    if (!image::takes_layers(file)) continue;
+    for (const LayerKind kind : outputs.layers) {
+      image::check_writable(image::layer_file(file, std::string(facts_of(kind).name)));
+    }
+  }
   if (!outputs.statistics.empty()) check_creatable(outputs.statistics);
   if (!outputs.keeping.file.empty()) check_creatable(outputs.keeping.file);
   if (!outputs.preview.empty()) image::check_writable(outputs.preview);
@@ -121,9 +127,13 @@ Outcome drive(Integrator& integrator, const Settings& settings, const Budget& bu
                          statistics.passes, wanted, pass_names(statistics)));
   }
   const double writing_start = clock_seconds();
+  // Without its layers a picture is still a picture.
+  std::vector<image::Layer> layers;
+  attempt(failure, log, [&] { layers = layers_of(integrator, outputs.layers); });
   for (const auto& file : outputs.pictures) {
     attempt(failure, log, [&] {
-      elsewhere.write(file, [&](const fs::path& place) { session.write_picture(place, picture); });
+      elsewhere.write(
+          file, [&](const fs::path& place) { session.write_picture(place, picture, layers); });
       log.note(fmt::format("wrote {}", file.string()));
     });
   }

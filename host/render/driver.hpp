@@ -12,6 +12,7 @@
 #include "checkpoint_keeper.hpp"
 #include "image.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "log.hpp"
 #include "progress.hpp"
 
@@ -41,6 +42,7 @@ struct Budget {
 struct Outputs {
   std::vector<std::filesystem::path> pictures;
   image::Encoding encoding;
+  std::vector<LayerKind> layers;     ///< in pictures that take them
   std::filesystem::path statistics;  ///< JSON; empty: none
   Keeping keeping;
   std::filesystem::path preview;  ///< a picture, too; empty: none
@@ -64,7 +66,7 @@ struct Circumstances {
 
 enum class Outcome { complete, interrupted };
 
-/// Throws Failure unless every file of `outputs` could be written.
+/// Throws Failure unless every file of `outputs` could be written, layers' own ones included.
 void check_outputs(const Outputs& outputs);
 
 /// Prepares `integrator`, or restores it from a checkpoint, and advances it until the budget is

@@ -22,7 +22,7 @@ constexpr std::uint64_t kLeastQueue = 1u << 16;
 constexpr std::uint32_t kBouncesOfFew = 16;
 constexpr std::uint64_t kFewPaths = 4096;
 
-constexpr std::uint32_t kGenerate = 0;  // specialisation constant of eye.comp
+constexpr std::uint32_t kGenerate = 0, kSurfaces = 1;  // specialisation constants of eye.comp
 
 // Memory is made for this many times the hit points expected: tracing again would cost more. Where
 // in the end it is more than so many times what they take, they are copied.
@@ -42,12 +42,14 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
                                  device.max_storage_bytes() / sizeof(shared::HitPoint));
 }
 
-EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits)
-    : start(make_kernel(device, traits, shaders::eye, shaders::eye_plain, {{kGenerate, 1}})),
-      go_on(make_kernel(device, traits, shaders::eye, shaders::eye_plain, {{kGenerate, 0}})),
+EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits, Find find)
+    : start(make_kernel(device, traits, shaders::eye, shaders::eye_plain,
+                        {{kGenerate, 1}, {kSurfaces, find == Find::surfaces}})),
+      go_on(make_kernel(device, traits, shaders::eye, shaders::eye_plain,
+                        {{kGenerate, 0}, {kSurfaces, find == Find::surfaces}})),
       scatter(device, shaders::eye_scatter),
       order(device, shaders::eye_order),
-      layers(traits.layers) {}
+      layers(traits.layers && find == Find::hit_points) {}
 
 EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
                  const Settings& settings)

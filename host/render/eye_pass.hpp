@@ -18,7 +18,9 @@ std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device)
 
 /// What takes long to make and depends on little.
 struct EyeKernels {
-  EyeKernels(gpu::Device& device, const SceneTraits& traits);
+  /// What the paths leave in a tile: hit points and light, or records for surfaces.comp.
+  enum class Find { hit_points, surfaces };
+  EyeKernels(gpu::Device& device, const SceneTraits& traits, Find find = Find::hit_points);
   gpu::Kernel start, go_on, scatter, order;
   bool layers;  ///< hit points have a fifth plane
 };

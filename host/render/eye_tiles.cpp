@@ -25,9 +25,10 @@ void check_paths(const Settings& settings) {
   }
 }
 
-bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
-                     const Settings& settings, const std::function<bool()>& interrupted,
-                     std::vector<HitTile>& tiles, Statistics& statistics) {
+bool for_each_eye_tile(gpu::Device& device, const EyeKernels& kernels,
+                       const gpu::BindingTable& scene, const Settings& settings,
+                       const std::function<bool()>& interrupted,
+                       const std::function<void(HitTile&, const EyePass&)>& use) {
   const gpu::Region region(device, "eye");
   EyePass eye(device, kernels, scene, settings);
   const std::uint32_t all_pixels = settings.width * settings.height;
@@ -46,15 +47,24 @@ bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::
       }
       pixels = (pixels + 1) / 2;
     }
-    Tally tally;
-    tally.add(eye.counters());
-    tally.add_to(statistics);
-    statistics.hit_points += tile.hits;
-    statistics.eye_rays += eye.rays();
-    tiles.push_back(std::move(tile));
-    statistics.tiles = tiles.size();
+    use(tile, eye);
   }
   return true;
+}
+
+bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+                     const Settings& settings, const std::function<bool()>& interrupted,
+                     std::vector<HitTile>& tiles, Statistics& statistics) {
+  return for_each_eye_tile(device, kernels, scene, settings, interrupted,
+                           [&](HitTile& tile, const EyePass& eye) {
+                             Tally tally;
+                             tally.add(eye.counters());
+                             tally.add_to(statistics);
+                             statistics.hit_points += tile.hits;
+                             statistics.eye_rays += eye.rays();
+                             tiles.push_back(std::move(tile));
+                             statistics.tiles = tiles.size();
+                           });
 }
 
 }  // namespace ppm::render

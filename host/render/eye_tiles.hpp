@@ -19,6 +19,13 @@ std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Setti
 /// Throws Failure where there are more eye paths or photon paths a pass than can be numbered.
 void check_paths(const Settings& settings);
 
+/// Makes the tiles of all pixels one after the other and gives each to `use`, with the pass that
+/// made it. `scene`: the table of scene buffers. Returns false when interrupted.
+bool for_each_eye_tile(gpu::Device& device, const EyeKernels& kernels,
+                       const gpu::BindingTable& scene, const Settings& settings,
+                       const std::function<bool()>& interrupted,
+                       const std::function<void(HitTile&, const EyePass&)>& use);
+
 /// Appends the tiles of all pixels to `tiles`, and adds to the statistics what they took. `scene`:
 /// the table of scene buffers. Returns false when interrupted.
 bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,

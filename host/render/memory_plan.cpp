@@ -7,6 +7,7 @@
 
 #include "binary_tree.hpp"
 #include "film.hpp"
+#include "layers.hpp"
 #include "nearest_photons.hpp"
 #include "photon_map.hpp"
 #include "shared/layout.h"
@@ -118,6 +119,19 @@ std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassL
   const std::uint64_t paths = pass_capacities(settings, limits).camera_paths;
   return {{"paths", paths * 2 * sizeof(shared::CameraPath), true, Phase::upload, Phase::render},
           {"film", Film::bytes(pixels), true, Phase::upload, Phase::render}};
+}
+
+std::vector<MemoryPart> layers_memory(const Settings& settings, std::span<const LayerKind> kinds) {
+  if (kinds.empty()) return {};
+  const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+  std::uint64_t channels = 0;
+  for (const LayerKind kind : kinds) channels += facts_of(kind).channels.size();
+  const std::uint64_t hits = share(kHitsAPath, pixels * layer_samples(settings));
+  const std::uint64_t in_tile = std::min(hits, settings.tile_hits);
+  // Once more while a file is made.
+  return {{"layers", 2 * channels * pixels * sizeof(float), false, Phase::render, Phase::render},
+          {"eye paths of layers", in_tile * (kHitBytes + kTileHitBytes), true, Phase::render,
+           Phase::render}};
 }
 
 MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,

@@ -9,6 +9,7 @@
 #include "region.hpp"
 #include "shared/markov_chain.h"
 #include "stopwatch.hpp"
+#include "surface_layers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -248,6 +249,10 @@ Picture MltIntegrator::resolve() {
   const double pixels = static_cast<double>(settings_.width) * settings_.height;
   const double mutations = static_cast<double>(steps_) * chains_;
   return film_.resolve(steps_ > 0 ? mutations / pixels : 1.0);
+}
+
+std::vector<image::Layer> MltIntegrator::layers(std::span<const LayerKind> kinds) {
+  return surface_layers(device_, buffers_.table(), traits_, settings_, scene_.frame, kinds);
 }
 
 const Statistics& MltIntegrator::statistics() {

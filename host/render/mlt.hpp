@@ -7,12 +7,13 @@
 #include "bidirectional_sampler.hpp"
 #include "film.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "scene_buffers.hpp"
 
 namespace ppm::render {
 
 /// A pass is as many mutations as the picture has pixels, shared by all chains.
-class MltIntegrator final : public Integrator {
+class MltIntegrator final : public Integrator, public LayerSource {
  public:
   MltIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
                 unsigned threads);
@@ -23,6 +24,7 @@ class MltIntegrator final : public Integrator {
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
+  std::vector<image::Layer> layers(std::span<const LayerKind> kinds) override;
 
   /// Mean luminance of a sample, as known so far.
   double normalisation() const { return normalisation_; }

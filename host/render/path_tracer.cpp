@@ -7,6 +7,7 @@
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 #include "stopwatch.hpp"
+#include "surface_layers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -19,10 +20,7 @@ gpu::BindingTable scene_table(const SceneBuffers& buffers) {
   return table;
 }
 
-gpu::Kernel path_kernel(gpu::Device& device, const scene::Scene& scene, const SceneBuffers& buffers,
-                        const Settings& settings) {
-  SceneTraits traits = traits_of(scene);
-  buffers.add_segments(traits);
+gpu::Kernel path_kernel(gpu::Device& device, const SceneTraits& traits, const Settings& settings) {
   return make_kernel(device, traits, shaders::path, shaders::path_plain,
                      {{kHeuristic, settings.integrator == "pt-mis"}});
 }
@@ -35,9 +33,10 @@ PathTracer::PathTracer(const Settings& settings, const scene::Scene& scene, gpu:
       scene_(scene),
       device_(device),
       buffers_(scene, settings, device, threads),
+      traits_(buffers_.traits_of(scene)),
       table_(scene_table(buffers_)),
       pipelines_begin_(clock_seconds()),
-      kernel_(path_kernel(device, scene, buffers_, settings)),
+      kernel_(path_kernel(device, traits_, settings)),
       path_capacity_(pass_capacities(settings, PassLimits::of(device)).camera_paths),
       queue_{{device, "camera paths A", path_capacity_ * sizeof(shared::CameraPath),
               gpu::Usage::storage},
@@ -143,6 +142,10 @@ SavedState PathTracer::save_state() {
 void PathTracer::restore_state(const SavedState& state) {
   const std::uint64_t fingerprint = film_fingerprint(settings_, buffers_.constants(), scene_);
   statistics_.passes = statistics_.samples = restore_film(film_, state, fingerprint);
+}
+
+std::vector<image::Layer> PathTracer::layers(std::span<const LayerKind> kinds) {
+  return surface_layers(device_, buffers_.table(), traits_, settings_, scene_.frame, kinds);
 }
 
 const Statistics& PathTracer::statistics() {

@@ -7,12 +7,13 @@
 #include "device_batch.hpp"
 #include "film.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "scene_buffers.hpp"
 #include "tracing_rounds.hpp"
 
 namespace ppm::render {
 
-class PathTracer final : public Integrator {
+class PathTracer final : public Integrator, public LayerSource {
  public:
   PathTracer(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
              unsigned threads);
@@ -25,6 +26,7 @@ class PathTracer final : public Integrator {
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
+  std::vector<image::Layer> layers(std::span<const LayerKind> kinds) override;
 
  private:
   /// Traces paths [first, first + paths) of a batch that begins with the next pass.
@@ -35,6 +37,7 @@ class PathTracer final : public Integrator {
   const scene::Scene& scene_;
   gpu::Device& device_;
   SceneBuffers buffers_;
+  SceneTraits traits_;
   gpu::BindingTable table_;
   double pipelines_begin_;  // reading of the clock, between the members that are timed
   gpu::Kernel kernel_;

@@ -6,11 +6,13 @@
 #include <numeric>
 
 #include "failure.hpp"
+#include "hit_layers.hpp"
 #include "memory_plan.hpp"
 #include "radius_summary.hpp"
 #include "region.hpp"
 #include "shared/random.h"
 #include "stopwatch.hpp"
+#include "surface_layers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -246,6 +248,20 @@ void PhotonMapIntegrator::record_radii() {
   statistics_.nearest_radius_min = summary.min;
   statistics_.nearest_radius_median = summary.median;
   statistics_.nearest_radius_max = summary.max;
+}
+
+std::vector<image::Layer> PhotonMapIntegrator::layers(std::span<const LayerKind> kinds) {
+  if (nearest_ && map_.photons() != estimated_) estimate();
+  std::vector<image::Layer> layers =
+      surface_layers(device_, table_, traits_, settings_, scene_.frame, kinds);
+  for (image::Layer& layer : hit_layers(tiles_, settings_, 1.0, scene_.frame, kinds)) {
+    layers.push_back(std::move(layer));
+  }
+  if (std::ranges::find(kinds, LayerKind::direct_emission) != kinds.end()) {
+    layers.push_back(empty_layer(LayerKind::direct_emission, 0));
+    layers.back().values = estimator_.picture(tiles_, settings_, 0.0f).rgb;
+  }
+  return layers;
 }
 
 const Statistics& PhotonMapIntegrator::statistics() {

@@ -14,6 +14,7 @@
 #include "estimator.hpp"
 #include "eye_tiles.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "nearest_photons.hpp"
 #include "pass_capacities.hpp"
 #include "path_chunks.hpp"
@@ -24,7 +25,7 @@
 
 namespace ppm::render {
 
-class PhotonMapIntegrator final : public Integrator {
+class PhotonMapIntegrator final : public Integrator, public LayerSource {
  public:
   PhotonMapIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device,
                       Log& log, unsigned threads);
@@ -38,6 +39,7 @@ class PhotonMapIntegrator final : public Integrator {
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
+  std::vector<image::Layer> layers(std::span<const LayerKind> kinds) override;
 
  private:
   /// The photons of these paths, if they fit; otherwise, and when interrupted, the map is as

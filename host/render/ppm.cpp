@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hit_layers.hpp"
 #include "radius_summary.hpp"
 #include "region.hpp"
 #include "shared/random.h"
 #include "stopwatch.hpp"
+#include "surface_layers.hpp"
 
 namespace ppm::render {
 namespace {
@@ -133,6 +135,19 @@ void PpmIntegrator::record_initial_radii(std::vector<float> radii2) {
   statistics_.initial_radius_min = summary.min;
   statistics_.initial_radius_median = summary.median;
   statistics_.initial_radius_max = summary.max;
+}
+
+std::vector<image::Layer> PpmIntegrator::layers(std::span<const LayerKind> kinds) {
+  std::vector<image::Layer> layers =
+      surface_layers(device_, table_, traits_, settings_, scene_.frame, kinds);
+  for (image::Layer& layer : hit_layers(tiles_, settings_, settings_.alpha, scene_.frame, kinds)) {
+    layers.push_back(std::move(layer));
+  }
+  if (std::ranges::find(kinds, LayerKind::direct_emission) != kinds.end()) {
+    layers.push_back(empty_layer(LayerKind::direct_emission, 0));
+    layers.back().values = estimator_.picture(tiles_, settings_, 0.0f).rgb;
+  }
+  return layers;
 }
 
 const Statistics& PpmIntegrator::statistics() {

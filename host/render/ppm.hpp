@@ -11,6 +11,7 @@
 #include "estimator.hpp"
 #include "eye_tiles.hpp"
 #include "integrator.hpp"
+#include "layers.hpp"
 #include "pass_batch.hpp"
 #include "pass_capacities.hpp"
 #include "path_chunks.hpp"
@@ -22,7 +23,7 @@
 
 namespace ppm::render {
 
-class PpmIntegrator final : public Integrator {
+class PpmIntegrator final : public Integrator, public LayerSource {
  public:
   PpmIntegrator(const Settings& settings, const scene::Scene& scene, gpu::Device& device, Log& log,
                 unsigned threads);
@@ -36,6 +37,7 @@ class PpmIntegrator final : public Integrator {
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;
   const Statistics& statistics() override;
+  std::vector<image::Layer> layers(std::span<const LayerKind> kinds) override;
 
  private:
   bool trace_eye_paths(const std::function<bool()>& interrupted);

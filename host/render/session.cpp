@@ -164,9 +164,11 @@ void Session::show_last(const Picture& picture) {
   attempt([&] { preview_.show(show); }, "");
 }
 
-void Session::write_picture(const std::filesystem::path& file, const Picture& picture) {
+void Session::write_picture(const std::filesystem::path& file, const Picture& picture,
+                            std::span<const image::Layer> layers) {
+  if (!image::takes_layers(file)) layers = {};
   image::write(file, {picture.width, picture.height, picture.rgb}, outputs_.encoding,
-               picture_attributes(settings_, circumstances_, statistics()));
+               picture_attributes(settings_, circumstances_, statistics()), layers);
 }
 
 }  // namespace ppm::render

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "checkpoint_keeper.hpp"
 #include "driver.hpp"
@@ -33,8 +34,10 @@ class Session {
   void keep_last(Elsewhere& elsewhere);
   /// The preview, once more.
   void show_last(const Picture& picture);
-  /// As the outputs ask for it, with the attributes of the passes so far.
-  void write_picture(const std::filesystem::path& file, const Picture& picture);
+  /// As the outputs ask for it, with the attributes of the passes so far. `layers`: where the file
+  /// takes any.
+  void write_picture(const std::filesystem::path& file, const Picture& picture,
+                     std::span<const image::Layer> layers = {});
 
  private:
   bool begin();

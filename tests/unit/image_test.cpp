@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <thread>
@@ -68,6 +69,65 @@ TEST(Image, HalvesAreTheNearestAndNeverInfinite) {
   for (const std::size_t i : {0u, 1u, 2u, 4u}) EXPECT_EQ(held[i], 65504.0f) << i;
   EXPECT_EQ(held[3], -65504.0f);
   EXPECT_TRUE(std::isnan(held[5]));
+}
+
+const std::vector<Layer> kLayers = {{"depth", {"Z"}, {1.0f, 2.5f, 1e5f, 4.0f, 0.1f, 6.0f}, true},
+                                    {"albedo",
+                                     {"Albedo.R", "Albedo.G", "Albedo.B"},
+                                     {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f,
+                                      0.9f, 0.8f, 0.7f, 0.6f, 0.5f, 0.4f, 0.3f, 0.2f},
+                                     false}};
+
+TEST(Image, ExrHoldsLayersByName) {
+  const TemporaryFolder folder;
+  for (const bool half : {false, true}) {
+    write(folder / "p.exr", kPicture, {0.0, Tone::linear, half}, {}, kLayers);
+    const PictureFile read = read_picture(folder / "p.exr");
+    const auto channel = [&](const std::string& name) {
+      const auto& names = read.spec.channelnames;
+      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    ASSERT_EQ(read.spec.nchannels, 7);
+    const auto expect_channel = [&](const std::string& name, const std::vector<float>& values,
+                                    std::size_t first, std::size_t count, bool rounded) {
+      ASSERT_LT(channel(name), 7u) << name;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const float value = values[count * i + first];
+        EXPECT_NEAR(read.values[7 * i + channel(name)], value, rounded ? value / 2048.0f : 0.0f)
+            << name;
+      }
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      expect_channel(std::string(1, "RGB"[i]), kPixels, i, 3, half);
+      expect_channel(kLayers[1].channels[i], kLayers[1].values, i, 3, half);
+    }
+    expect_channel("Z", kLayers[0].values, 0, 1, false);  // precise
+    // Whoever reads the first three channels reads the picture.
+    EXPECT_EQ(channel("R"), 0u);
+    EXPECT_EQ(channel("B"), 2u);
+  }
+  EXPECT_EQ(folder.names(), std::set<std::string>{"p.exr"});
+}
+
+TEST(Image, PfmHoldsTheVeryFloatsFromTheBottomAndLayersBesideIt) {
+  const TemporaryFolder folder;
+  write(folder / "p.q.pfm", kPicture, {3.0, Tone::agx, true}, {}, kLayers);
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"p.q.pfm", "p.q.albedo.pfm", "p.q.depth.pfm"}));
+  const auto expect_file = [&](const char* name, const std::string& header,
+                               const std::vector<float>& values) {
+    const std::string text = file_text(folder / name);
+    ASSERT_EQ(text.substr(0, header.size()), header);
+    ASSERT_EQ(text.size(), header.size() + 4 * values.size());
+    const std::size_t row = values.size() / 2;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      float value = 0.0f;
+      std::memcpy(&value, text.data() + header.size() + 4 * i, 4);
+      EXPECT_EQ(value, values[(i + row) % values.size()]) << i;  // two rows, the lower first
+    }
+  };
+  expect_file("p.q.pfm", "PF\n3 2\n-1.0\n", kPixels);
+  expect_file("p.q.albedo.pfm", "PF\n3 2\n-1.0\n", kLayers[1].values);
+  expect_file("p.q.depth.pfm", "Pf\n3 2\n-1.0\n", kLayers[0].values);
 }
 
 TEST(Image, HdrHoldsEightBitsOfEachPixelsLargestChannel) {
@@ -152,7 +212,7 @@ TEST(Image, SameInputSameBytesLater) {
 }
 
 TEST(Image, ExtensionsAreKnownInAnyCase) {
-  for (const char* name : {"a.exr", "a.EXR", "b/c.Hdr", "a.b.png"}) {
+  for (const char* name : {"a.exr", "a.EXR", "b/c.Hdr", "a.b.png", "a.pfm"}) {
     EXPECT_TRUE(has_known_extension(name)) << name;
   }
   for (const char* name : {"a", "a.jpg", ".png", "", "exr", "a.exr/", "a.exr.gz"}) {

@@ -234,5 +234,20 @@ TEST(MachineMemory, IsWhatTheSystemOrTheControlGroupHasLeft) {
   EXPECT_EQ(available_memory(root), 0u);
 }
 
+TEST(MemoryBudget, LayersTakeWhatIsAskedFor) {
+  using render::LayerKind;
+  render::Settings settings;
+  settings.width = settings.height = 1000;
+  EXPECT_TRUE(render::layers_memory(settings, {}).empty());
+  const LayerKind kinds[] = {LayerKind::albedo, LayerKind::depth};
+  const auto parts = render::layers_memory(settings, kinds);
+  ASSERT_EQ(parts.size(), 2u);
+  // Four channels of 32 bits, twice; one tile of records, however many pixels there are.
+  EXPECT_EQ(parts[0].bytes, 2u * 4 * 4 * 1000000);
+  EXPECT_TRUE(parts[1].on_device);
+  settings.height = 4000;
+  EXPECT_EQ(render::layers_memory(settings, kinds)[1].bytes, parts[1].bytes);
+}
+
 }  // namespace
 }  // namespace ppm::tests
