@@ -13,6 +13,7 @@
 #include "layers.hpp"
 #include "load_gltf.hpp"
 #include "log.hpp"
+#include "tev.hpp"
 
 namespace ppm::cli {
 
@@ -47,6 +48,7 @@ struct RenderOptions {
   image::Encoding encoding;
   std::vector<render::LayerKind> layers;
   std::filesystem::path stats;
+  std::optional<display::TevAddress> display;
   unsigned threads = 0;                        ///< host threads, 0: all
   std::optional<std::uint64_t> memory_budget;  ///< bytes; nothing: what the machine has
   Verbosity verbosity = Verbosity::normal;

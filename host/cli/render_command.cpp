@@ -37,6 +37,7 @@ render::Outputs outputs_for(const RenderOptions& options) {
   outputs.pictures = options.outputs;
   outputs.encoding = options.encoding;
   outputs.layers = options.layers;
+  outputs.display = options.display;
   outputs.statistics = options.stats;
   outputs.keeping = {options.run.checkpoint, options.run.checkpoint_seconds, options.run.words, {}};
   outputs.preview = options.run.preview;

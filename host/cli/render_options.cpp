@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "declarer.hpp"
+#include "display_options.hpp"
 #include "image.hpp"
 #include "layer_options.hpp"
 #include "load_environment.hpp"
@@ -36,6 +37,7 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
       ->group("Files")
       ->allow_extra_args(false);
   declare_layers(declare, options);
+  declare_display(declare, options);
   declare.text("--stats", "FILE.json", "write what was done and how long it took",
                [&](const std::string& value) { options.stats = value; });
   declare.real(

@@ -15,8 +15,8 @@ namespace {
 constexpr std::array<std::string_view, 4> kBudgets = {"--passes", "--spp", "--time",
                                                       "--total-photons"};
 /// Of one session alone.
-constexpr std::array<std::string_view, 6> kOfOneSession = {"--quiet", "--verbose",  "--validate",
-                                                           "--stats", "--progress", "--checkpoint"};
+constexpr std::array<std::string_view, 7> kOfOneSession = {
+    "--quiet", "--verbose", "--validate", "--stats", "--progress", "--checkpoint", "--display"};
 
 std::string_view name_in(std::string_view word) {
   return word.starts_with("--") ? word.substr(0, word.find('=')) : "SCENE";

@@ -15,6 +15,7 @@
 #include "layers.hpp"
 #include "log.hpp"
 #include "progress.hpp"
+#include "tev.hpp"
 
 namespace ppm::render {
 
@@ -49,6 +50,7 @@ struct Outputs {
   double preview_seconds = 5.0;   ///< at least, between two of them
   /// Folder for what cannot be written where it should at the end; empty: none.
   std::filesystem::path fallback;
+  std::optional<display::TevAddress> display;  ///< viewer of the picture so far
   ProgressStyle progress = ProgressStyle::text;
 };
 

@@ -1,6 +1,7 @@
 #include "session.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <utility>
@@ -25,6 +26,12 @@ Checkpoint facts_of(const Settings& settings, const Circumstances& circumstances
   return facts;
 }
 
+/// Of this picture among those that a viewer has.
+std::string title_of(const Settings& settings, const Circumstances& circumstances) {
+  return fmt::format("{}: {} ({})", circumstances.scene.filename().string(), settings.integrator,
+                     getpid());
+}
+
 }  // namespace
 
 Session::Session(Integrator& integrator, const Settings& settings, const Budget& budget,
@@ -41,6 +48,7 @@ Session::Session(Integrator& integrator, const Settings& settings, const Budget&
       start_(clock_seconds() - (resumed ? resumed->seconds : 0.0)),
       keeper_(outputs.keeping, facts_of(settings, circumstances), log),
       preview_(outputs.preview, outputs.preview_seconds),
+      display_(outputs.display, title_of(settings, circumstances), log),
       progress_(log, outputs.progress, budget.passes,
                 std::uint64_t{settings.width} * settings.height),
       // A method that ends itself makes its picture at the end, at the cost of many passes.
@@ -134,8 +142,9 @@ void Session::attempt(const std::function<void()>& deed, const char* consequence
 
 void Session::look_at_picture() {
   const bool measures = measures_change_ && change_.due(passes());
-  const bool shows = preview_.due();
-  if (!measures && !shows) return;
+  const bool shows = preview_.due(), displays = display_.due();
+  if (!measures && !shows && !displays) return;
+  const double start = clock_seconds();
   Picture picture;
   const auto show = [&](const std::filesystem::path& file) {
     picture = integrator_.resolve();
@@ -146,6 +155,7 @@ void Session::look_at_picture() {
   } else {
     picture = integrator_.resolve();
   }
+  if (displays && !picture.rgb.empty()) display_.show(picture, clock_seconds() - start);
   if (measures) change_.take(std::move(picture), passes());
 }
 
@@ -159,6 +169,7 @@ void Session::keep_last(Elsewhere& elsewhere) {
 }
 
 void Session::show_last(const Picture& picture) {
+  display_.last(picture);
   if (!preview_.wanted()) return;
   const auto show = [&](const std::filesystem::path& file) { write_picture(file, picture); };
   attempt([&] { preview_.show(show); }, "");

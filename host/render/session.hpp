@@ -10,6 +10,7 @@
 #include "checkpoint_keeper.hpp"
 #include "driver.hpp"
 #include "elsewhere.hpp"
+#include "live_display.hpp"
 #include "picture_change.hpp"
 #include "preview.hpp"
 #include "progress.hpp"
@@ -32,7 +33,7 @@ class Session {
   Statistics statistics();
   /// Throws Failure where the last checkpoint cannot be written anywhere.
   void keep_last(Elsewhere& elsewhere);
-  /// The preview, once more.
+  /// The preview once more, and the viewer's picture.
   void show_last(const Picture& picture);
   /// As the outputs ask for it, with the attributes of the passes so far. `layers`: where the file
   /// takes any.
@@ -64,6 +65,7 @@ class Session {
   double start_;  // of the time that the budget is of, by the clock
   CheckpointKeeper keeper_;
   Preview preview_;
+  LiveDisplay display_;
   Progress progress_;
   bool measures_change_;
   ChangeMeter change_;

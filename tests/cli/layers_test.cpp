@@ -1,4 +1,4 @@
-// Layers and tone curves on the command line.
+// Layers, tone curves and viewers on the command line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,6 +68,15 @@ TEST_F(CliLayers, GoIntoExrAndBesidePfm) {
       EXPECT_NEAR(values[i], radiance, radiance / 1024.0f);
     }
   }
+}
+
+TEST_F(CliLayers, AbsentViewerCostsAWarning) {
+  const Result result = render({"-o", out("p.exr"), "--display", "tev:127.0.0.1:1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::size_t first = result.err.find("warning: --display tev:127.0.0.1:1: ");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("--display", first + 12), std::string::npos) << result.err;
+  EXPECT_EQ(read_picture(folder_ / "p.exr").spec.width, 16);
 }
 
 }  // namespace

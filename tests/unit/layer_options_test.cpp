@@ -1,6 +1,7 @@
-// --aov on the command line.
+// --aov and --display on the command line.
 #include <gtest/gtest.h>
 
+#include "display_options.hpp"
 #include "options.hpp"
 
 namespace ppm::cli {
@@ -64,6 +65,26 @@ TEST(LayerOptions, WhatCannotBeIsRefused) {
   }
   expect_refused({"-o", "o.png", "-o", "o.hdr", "--aov", "albedo"}, "--aov: needs a picture");
   expect_refused({"-o", "o.pfm", "-o", "o.albedo.pfm", "--aov", "albedo"}, "--aov: 'o.albedo.pfm'");
+}
+
+TEST(LayerOptions, ViewersHaveAddresses) {
+  EXPECT_FALSE(accepted({}).display);
+  const auto expect_display = [](const char* text, const char* host, unsigned port) {
+    const auto display = accepted({"--display", text}).display;
+    ASSERT_TRUE(display) << text;
+    EXPECT_EQ(display->host, host) << text;
+    EXPECT_EQ(display->port, port) << text;
+  };
+  expect_display("tev", "127.0.0.1", 14158);
+  expect_display("tev:9000", "127.0.0.1", 9000);
+  expect_display("tev:desk", "desk", 14158);
+  expect_display("tev:desk:9000", "desk", 9000);
+  expect_display("tev:[::1]:9000", "::1", 9000);
+  expect_display("tev:[::1]", "::1", 14158);
+  for (const char* text : {"", "TEV", "tev:", "tev:desk:", "tev:desk:0", "tev:desk:x",
+                           "tev::1:9000", "tev:desk:65536", "window"}) {
+    expect_refused({"-o", "o.exr", "--display", text}, "--display: ");
+  }
 }
 
 }  // namespace
