@@ -27,7 +27,7 @@ void main() {
   uint first = sample_start[pixel * push.samples] + push.skip;
   uint last = min(first + PPM_RESOLVE_SLICE, sample_start[(pixel + 1u) * push.samples]);
   vec4 albedo = vec4(0.0), place = vec4(0.0), geometric = vec4(0.0), shading = vec4(0.0);
-  if (push.skip != 0u) {
+  if (read_at_run_time(push.skip, pixel) != 0u) {
     albedo = pixels[4u * pixel];
     place = pixels[4u * pixel + 1u];
     geometric = pixels[4u * pixel + 2u];
