@@ -1,5 +1,6 @@
 #include "bench_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
 
@@ -61,7 +62,7 @@ void declare_results(Declarer& declare, BenchOptions& options) {
   declare.text("--tolerance", "PERCENT", "what a figure may be worse by (default 10%)",
                [&](const std::string& value) {
                  const std::optional<double> tolerance = parse_percentage(value);
-                 if (!tolerance) throw refusal("--tolerance", value, "a percentage such as 10%");
+                 if (!tolerance) refuse("--tolerance", value, "a percentage such as 10%");
                  options.tolerance = *tolerance;
                });
 }
@@ -73,9 +74,9 @@ bool is_scene(const std::string& name) {
 }
 
 void declare_bench(CLI::App& app, BenchOptions& options) {
-  app.formatter(
-      std::make_shared<HelpFormatter>("Usage: ppm-vk bench [SCENE...] [OPTIONS]\n"
-                                      "       ppm-vk bench --compare OLD.json --with NEW.json\n"));
+  set_usage(app,
+            "Usage: ppm-vk bench [SCENE...] [OPTIONS]\n"
+            "       ppm-vk bench --compare OLD.json --with NEW.json\n");
   app.allow_extras();
   Declarer declare(app);
   declare_measuring(app, declare, options);
@@ -94,16 +95,16 @@ void check_bench(const CLI::App& app, BenchOptions& options) {
     const std::string& scene = options.scenes[i];
     if (scene.starts_with('-')) throw CLI::ValidationError(scene, "no such option");
     if (!is_scene(scene)) {
-      throw refusal("SCENE", scene,
-                    fmt::format("a .glb or .gltf file or one of {}", bench::builtin_scene_names()));
+      refuse("SCENE", scene,
+             fmt::format("a .glb or .gltf file or one of {}", bench::builtin_scene_names()));
     }
     if (!options.json.empty() && names_file(scene) && same_file(options.json, scene)) {
-      throw refusal("--json", options.json, "a file of its own");
+      refuse("--json", options.json, "a file of its own");
     }
   }
   for (const char* option : {"--json", "--compare", "--with"}) {
     if (app.count(option) > 0 && app.get_option(option)->as<std::string>().empty()) {
-      throw refusal(option, "", "a file name");
+      refuse(option, "", "a file name");
     }
   }
   if (app.count("--with") > 0 && app.count("--compare") == 0) {

@@ -1,5 +1,6 @@
 #include "compare_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,7 +61,7 @@ NamedMethod parse_method(const char* option, const std::string& text,
                          const CompareOptions& options) {
   const std::vector<std::string> parts = split(text, ':');
   if (!is_known(parts.front())) {
-    throw refusal(option, parts.front(), "one of " + known_methods());
+    refuse(option, parts.front(), "one of " + known_methods());
   }
   RenderOptions own = options.render;
   own.settings.integrator = parts.front();
@@ -75,10 +76,10 @@ NamedMethod parse_method(const char* option, const std::string& text,
     const bool is_its_own =
         method.has_option(name) || (name == "--spp" && method.unit == render::PassUnit::photons);
     if (equals == std::string::npos || !is_its_own) {
-      throw refusal(option, text,
-                    fmt::format("a method with options of its own, such as ppm:alpha=0.8; those of "
-                                "{} are: {}",
-                                method.name, method.options.empty() ? "none" : method.options));
+      refuse(option, text,
+             fmt::format("a method with options of its own, such as ppm:alpha=0.8; those of "
+                         "{} are: {}",
+                         method.name, method.options.empty() ? "none" : method.options));
     }
     words.insert(words.begin(), {parts[i].substr(equals + 1), name});  // as CLI11 wants them
   }
@@ -120,7 +121,7 @@ void declare_comparison(Declarer& declare, CompareOptions& options) {
                [&](const std::string& value) {
                  options.reference_seconds = parse_duration(value);
                  if (!options.reference_seconds) {
-                   throw refusal("--reference-time", value, "a time such as 30, 90s, 10m or 2h");
+                   refuse("--reference-time", value, "a time such as 30, 90s, 10m or 2h");
                  }
                });
   declare.text("--reference-method", "NAME",
@@ -141,7 +142,7 @@ void declare_pixels(CLI::App& app, const char* name, const char* shape, const ch
          [=, &target](const std::vector<std::string>& values) {
            for (const std::string& value : values) {
              const auto numbers = parse_pixels<kCount>(value);
-             if (!numbers) throw refusal(name, value, wanted);
+             if (!numbers) refuse(name, value, wanted);
              target.push_back(*numbers);
            }
          },
@@ -159,7 +160,7 @@ void declare_report(CLI::App& app, Declarer& declare, CompareOptions& options) {
                [&](const std::string& value) {
                  options.exposure = parse_finite(value);
                  if (!options.exposure || std::abs(*options.exposure) > 100.0) {
-                   throw refusal("--exposure", value, "a number from -100 to 100");
+                   refuse("--exposure", value, "a number from -100 to 100");
                  }
                });
   declare_pixels<glm::uvec4, 4>(app, "--crop", "X,Y,W,H",
@@ -181,11 +182,12 @@ void declare_report(CLI::App& app, Declarer& declare, CompareOptions& options) {
 
 void declare_compare(CLI::App& app, CompareOptions& options) {
   options.render.seconds = kUsualSeconds;
-  app.formatter(std::make_shared<HelpFormatter>(
+  set_usage(
+      app,
       "Usage: ppm-vk compare SCENE.glb|.gltf -o REPORT/ [OPTIONS]\n"
       "\n"
       "Renders a scene by several methods for the same time (--time, default 60 s for each) and\n"
-      "reports how near they came. Given again, the same command goes on where it was stopped.\n"));
+      "reports how near they came. Given again, the same command goes on where it was stopped.\n");
   app.allow_extras();
   Declarer declare(app);
   declare_comparison(declare, options);
@@ -216,7 +218,7 @@ void check_compare(const CLI::App& app, CompareOptions& options) {
     }
   }
   if (app.count("--reference") > 0 && options.reference.empty()) {
-    throw refusal("--reference", "", "a file name");
+    refuse("--reference", "", "a file name");
   }
   if (app.count("--figure-passes") > 0 && !options.figure5 && options.probes.empty()) {
     throw CLI::ValidationError("--figure-passes", "needs --figure5 or --probe");

@@ -1,12 +1,43 @@
 #include "declarer.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace ppm::cli {
 
-CLI::ValidationError refusal(const char* option, const std::string& value,
-                             const std::string& wanted) {
-  return CLI::ValidationError(option, fmt::format("'{}' is not {}", value, wanted));
+namespace {
+
+struct HelpFormatter : CLI::Formatter {
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(36); }
+  std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override {
+    return usage_;
+  }
+
+ private:
+  std::string usage_;
+};
+
+}  // namespace
+
+void refuse(const char* option, const std::string& value, const std::string& wanted) {
+  throw CLI::ValidationError(option, fmt::format("'{}' is not {}", value, wanted));
+}
+
+void set_usage(CLI::App& app, std::string lines) {
+  app.formatter(std::make_shared<HelpFormatter>(std::move(lines)));
+}
+
+void Declarer::text(const char* name, const char* value_name, const std::string& help,
+                    std::function<void(const std::string&)> store) {
+  app_.add_option_function<std::string>(name, std::move(store), help)
+      ->type_name(value_name)
+      ->group(group_);
+}
+
+void Declarer::flag(const char* name, const std::string& help, std::function<void()> act) {
+  app_.add_flag_callback(name, std::move(act), help)->group(group_)->disable_flag_override();
 }
 
 std::optional<double> parse_finite(std::string_view text) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <functional>
@@ -13,11 +12,18 @@
 
 #include "glm/glm.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace ppm::cli {
 
-/// A value that an option does not take; the message says what it would take.
-CLI::ValidationError refusal(const char* option, const std::string& value,
-                             const std::string& wanted);
+/// Throws the CLI::ValidationError of a value that an option does not take, which says what it
+/// would take.
+[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& wanted);
+
+/// The help of `app` begins with `lines`.
+void set_usage(CLI::App& app, std::string lines);
 
 template <class T>
 std::optional<T> parse_number(std::string_view text) {
@@ -34,17 +40,6 @@ std::optional<double> parse_duration(std::string_view text);
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-struct HelpFormatter : CLI::Formatter {
-  /// `usage` is the first line of the help, with its end.
-  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(36); }
-  std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override {
-    return usage_;
-  }
-
- private:
-  std::string usage_;
-};
-
 /// Declares options whose values are checked here.
 class Declarer {
  public:
@@ -52,19 +47,15 @@ class Declarer {
 
   void group(const char* name) { group_ = name; }
 
-  CLI::Option* text(const char* name, const char* value_name, const std::string& help,
-                    std::function<void(const std::string&)> store) {
-    return app_.add_option_function<std::string>(name, std::move(store), help)
-        ->type_name(value_name)
-        ->group(group_);
-  }
+  void text(const char* name, const char* value_name, const std::string& help,
+            std::function<void(const std::string&)> store);
 
   template <class T, class Target>
   void whole(const char* name, Target& target, T least, T most, const std::string& help) {
     text(name, "N", help, [=, &target](const std::string& value) {
       const std::optional<T> number = parse_number<T>(value);
       if (!number || *number < least || *number > most) {
-        throw refusal(name, value, fmt::format("a whole number from {} to {}", least, most));
+        refuse(name, value, fmt::format("a whole number from {} to {}", least, most));
       }
       target = *number;
     });
@@ -75,7 +66,7 @@ class Declarer {
             const std::string& help, std::function<bool(double)> allowed) {
     text(name, value_name, help, [=, &target](const std::string& value) {
       const std::optional<double> number = parse_finite(value);
-      if (!number || !allowed(*number)) throw refusal(name, value, wanted);
+      if (!number || !allowed(*number)) refuse(name, value, wanted);
       target = *number;
     });
   }
@@ -83,13 +74,11 @@ class Declarer {
   void vector(const char* name, std::optional<glm::dvec3>& target, const std::string& help) {
     text(name, "X,Y,Z", help, [=, &target](const std::string& value) {
       target = parse_vector(value);
-      if (!target) throw refusal(name, value, "three finite numbers X,Y,Z without spaces");
+      if (!target) refuse(name, value, "three finite numbers X,Y,Z without spaces");
     });
   }
 
-  void flag(const char* name, const std::string& help, std::function<void()> act) {
-    app_.add_flag_callback(name, std::move(act), help)->group(group_)->disable_flag_override();
-  }
+  void flag(const char* name, const std::string& help, std::function<void()> act);
 
  private:
   CLI::App& app_;

@@ -35,7 +35,7 @@ void declare_display(Declarer& declare, RenderOptions& options) {
                [&](const std::string& value) {
                  options.display = parse_display(value);
                  if (!options.display) {
-                   throw refusal("--display", value, "tev, tev:PORT or tev:HOST:PORT");
+                   refuse("--display", value, "tev, tev:PORT or tev:HOST:PORT");
                  }
                });
 }

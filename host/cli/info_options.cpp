@@ -1,5 +1,6 @@
 #include "info_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "render_options.hpp"
@@ -7,10 +8,10 @@
 namespace ppm::cli {
 
 void declare_info(CLI::App& app, InfoOptions& options) {
-  app.formatter(std::make_shared<HelpFormatter>(
-      "Usage: ppm-vk info FILE [--json]\n"
-      "\n"
-      "Says what a checkpoint, or an EXR that ppm-vk wrote, holds.\n"));
+  set_usage(app,
+            "Usage: ppm-vk info FILE [--json]\n"
+            "\n"
+            "Says what a checkpoint, or an EXR that ppm-vk wrote, holds.\n");
   app.allow_extras();
   Declarer declare(app);
   declare.text("FILE", "", "checkpoint or .exr",

@@ -1,5 +1,6 @@
 #include "inspect_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "declarer.hpp"
@@ -8,11 +9,12 @@
 namespace ppm::cli {
 
 void declare_inspect(CLI::App& app, InspectOptions& options) {
-  app.formatter(std::make_shared<HelpFormatter>(
+  set_usage(
+      app,
       "Usage: ppm-vk inspect SCENE.glb|.gltf [--json] [OPTIONS]\n"
       "\n"
       "Says what a scene holds as it would be rendered, and what memory that would take; options\n"
-      "are those of render.\n"));
+      "are those of render.\n");
   app.allow_extras();
   Declarer declare(app);
   declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",

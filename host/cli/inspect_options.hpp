@@ -1,9 +1,11 @@
 // The options of `ppm-vk inspect`.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace ppm::cli {
 

@@ -1,5 +1,6 @@
 #include "layer_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "image.hpp"
@@ -24,7 +25,7 @@ std::vector<render::LayerKind> parse_layers(std::string_view text) {
     const std::size_t comma = text.find(',');
     const std::string name(text.substr(0, comma));
     const std::optional<render::LayerKind> layer = render::layer_named(name);
-    if (!layer) throw refusal(kName, name, "one of " + known_layers());
+    if (!layer) refuse(kName, name, "one of " + known_layers());
     if (std::ranges::find(layers, *layer) == layers.end()) layers.push_back(*layer);
     if (comma == std::string_view::npos) return layers;
     text.remove_prefix(comma + 1);
@@ -61,7 +62,7 @@ void check_layers(const CLI::App& app, const RenderOptions& options) {
                          std::ranges::any_of(options.outputs, [&](const auto& other) {
                            return other != output && same_file(file, other);
                          });
-      if (clash) throw refusal(kName, file.string(), "a file of its own");
+      if (clash) refuse(kName, file.string(), "a file of its own");
     }
   }
 }

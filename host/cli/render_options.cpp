@@ -1,5 +1,6 @@
 #include "render_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -28,7 +29,7 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
            options.outputs.assign(values.begin(), values.end());
            for (const std::string& value : values) {
              if (!image::has_known_extension(value)) {
-               throw refusal("-o", value, "a file name that ends in .exr, .png, .hdr or .pfm");
+               refuse("-o", value, "a file name that ends in .exr, .png, .hdr or .pfm");
              }
            }
          },
@@ -50,8 +51,8 @@ void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
                [&](const std::string& value) {
                  const std::optional<image::Tone> tone = image::tone_named(value);
                  if (!tone) {
-                   throw refusal("--tone", value,
-                                 fmt::format("one of {}", fmt::join(image::tone_names(), ", ")));
+                   refuse("--tone", value,
+                          fmt::format("one of {}", fmt::join(image::tone_names(), ", ")));
                  }
                  options.encoding.tone = *tone;
                });
@@ -73,7 +74,7 @@ void declare_radius(Declarer& declare, render::Settings& settings) {
                    settings.radius_mode = render::RadiusMode::fixed;
                    settings.radius = *radius;
                  } else {
-                   throw refusal("--radius", value, "a positive number, auto or footprint");
+                   refuse("--radius", value, "a positive number, auto or footprint");
                  }
                });
 }
@@ -98,7 +99,7 @@ void declare_filter(Declarer& declare, render::Settings& settings) {
                  } else if (value == "gaussian") {
                    settings.filter = render::Filter::gaussian;
                  } else {
-                   throw refusal("--filter", value, "one of box, tent, gaussian");
+                   refuse("--filter", value, "one of box, tent, gaussian");
                  }
                });
 }
@@ -112,7 +113,7 @@ void declare_integrator(Declarer& declare, render::Settings& settings) {
   }
   declare.text("--integrator", "NAME", help, [&, names](const std::string& value) {
     if (std::ranges::find(names, value) == names.end()) {
-      throw refusal("--integrator", value, fmt::format("one of {}", fmt::join(names, ", ")));
+      refuse("--integrator", value, fmt::format("one of {}", fmt::join(names, ", ")));
     }
     settings.integrator = value;
   });
@@ -169,7 +170,7 @@ void declare_time(Declarer& declare, RenderOptions& options) {
                [&](const std::string& value) {
                  options.seconds = parse_duration(value);
                  if (!options.seconds) {
-                   throw refusal("--time", value, "a time such as 30, 90s, 10m or 2h");
+                   refuse("--time", value, "a time such as 30, 90s, 10m or 2h");
                  }
                });
 }
@@ -185,7 +186,7 @@ void declare_camera(Declarer& declare, RenderOptions& options) {
   declare.text("--scene", "NAME|INDEX",
                "scene of the file (default the one it names, or the first)",
                [&](const std::string& value) {
-                 if (value.empty()) throw refusal("--scene", value, "a name or an index");
+                 if (value.empty()) refuse("--scene", value, "a name or an index");
                  options.load.scene = value;
                });
   declare.text("--camera", "NAME|INDEX", "camera of the file (default the first)",
@@ -208,7 +209,7 @@ void declare_lights(Declarer& declare, RenderOptions& options) {
   declare.text("--env", "FILE.hdr|.exr", "lat-long map of the light from all around",
                [&](const std::string& value) {
                  if (!scene::is_environment_file(value)) {
-                   throw refusal("--env", value, "a file name that ends in .hdr or .exr");
+                   refuse("--env", value, "a file name that ends in .hdr or .exr");
                  }
                  load.environment = value;
                });
@@ -231,7 +232,7 @@ void declare_memory(Declarer& declare, RenderOptions& options) {
                [&](const std::string& value) {
                  options.memory_budget = parse_size(value);
                  if (!options.memory_budget) {
-                   throw refusal("--memory-budget", value, "a size such as 4G or 512M");
+                   refuse("--memory-budget", value, "a size such as 4G or 512M");
                  }
                });
 }
@@ -269,7 +270,7 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
                [&](const std::string& value) {
                  const auto bytes = parse_number<std::uint64_t>(value);
                  if (!bytes || *bytes < 1024 || !std::has_single_bit(*bytes)) {
-                   throw refusal("--segment-bytes", value, "a power of two from 1024 on");
+                   refuse("--segment-bytes", value, "a power of two from 1024 on");
                  }
                  options.settings.segment_bytes = *bytes;
                });
@@ -281,8 +282,8 @@ void declare_testing(Declarer& declare, RenderOptions& options) {
 }
 
 void declare_render(CLI::App& app, RenderOptions& options) {
-  app.formatter(std::make_shared<HelpFormatter>(
-      "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr|.pfm [-o ...] [OPTIONS]\n"));
+  set_usage(app,
+            "Usage: ppm-vk render SCENE.glb|.gltf -o FILE.exr|.png|.hdr|.pfm [-o ...] [OPTIONS]\n");
   app.allow_extras();
   Declarer declare(app);
   declare.text("SCENE", "", "glTF 2.0 file, .glb or .gltf",
@@ -325,8 +326,8 @@ void take_method(const CLI::App& app, RenderOptions& options) {
     if (has_samples) options.passes = samples;
     samples = 1;
   } else if (samples > kMostSamples) {
-    throw refusal("--spp", std::to_string(samples),
-                  fmt::format("a whole number from 1 to {}", kMostSamples));
+    refuse("--spp", std::to_string(samples),
+           fmt::format("a whole number from 1 to {}", kMostSamples));
   }
 }
 
@@ -348,7 +349,7 @@ void check_verbosity(const CLI::App& app) {
 
 void check_camera(const RenderOptions& options) {
   if (options.camera_up && *options.camera_up == glm::dvec3(0.0)) {
-    throw refusal("--camera-up", "0,0,0", "a direction");
+    refuse("--camera-up", "0,0,0", "a direction");
   }
   if (options.camera_position && options.camera_target &&
       *options.camera_position == *options.camera_target) {
@@ -365,10 +366,10 @@ void check_render(const CLI::App& app, RenderOptions& options) {
   }
   check_layers(app, options);
   if (app.count("--stats") > 0) {
-    if (options.stats.empty()) throw refusal("--stats", "", "a file name");
+    if (options.stats.empty()) refuse("--stats", "", "a file name");
     bool clash = same_file(options.stats, options.scene);
     for (const auto& output : options.outputs) clash = clash || same_file(options.stats, output);
-    if (clash) throw refusal("--stats", options.stats.string(), "a file of its own");
+    if (clash) refuse("--stats", options.stats.string(), "a file of its own");
   }
   check_run(app, options);
   check_shared(app, options);

@@ -1,5 +1,6 @@
 #include "resume_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -42,11 +43,12 @@ bool counts_samples(const std::vector<std::string>& words) {
 }  // namespace
 
 void declare_resume(CLI::App& app, ResumeOptions& options, RenderOptions& render) {
-  app.formatter(std::make_shared<HelpFormatter>(
+  set_usage(
+      app,
       "Usage: ppm-vk resume CHECKPOINT [-o FILE.exr|.png|.hdr|.pfm ...] [OPTIONS]\n"
       "\n"
       "Goes on where a rendering with --checkpoint stopped, and keeps the same checkpoint. All\n"
-      "options are as they were unless given; those that shape the picture cannot be.\n"));
+      "options are as they were unless given; those that shape the picture cannot be.\n");
   app.allow_extras();
   Declarer declare(app);
   declare.text("CHECKPOINT", "", "file that was written by render --checkpoint",

@@ -1,5 +1,6 @@
 #include "run_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 
@@ -15,7 +16,7 @@ constexpr std::array kPaths = {"SCENE",     "--env",   "--output",         "--ch
 void interval(Declarer& declare, const char* name, double& seconds, const std::string& help) {
   declare.text(name, "T", help, [name, &seconds](const std::string& value) {
     const std::optional<double> duration = parse_duration(value);
-    if (!duration) throw refusal(name, value, "a time such as 30, 90s, 10m or 2h");
+    if (!duration) refuse(name, value, "a time such as 30, 90s, 10m or 2h");
     seconds = *duration;
   });
 }
@@ -30,7 +31,7 @@ void check_own(const char* option, const std::filesystem::path& file,
     others.push_back(options.run.checkpoint);
   }
   for (const auto& other : others) {
-    if (same_file(file, other)) throw refusal(option, file.string(), "a file of its own");
+    if (same_file(file, other)) refuse(option, file.string(), "a file of its own");
   }
 }
 
@@ -50,7 +51,7 @@ void declare_run(Declarer& declare, RenderOptions& options, bool names_checkpoin
     declare.text("--checkpoint", "FILE",
                  "what `ppm-vk resume FILE` goes on from, however this ends",
                  [&](const std::string& value) {
-                   if (value.empty()) throw refusal("--checkpoint", value, "a file name");
+                   if (value.empty()) refuse("--checkpoint", value, "a file name");
                    run.checkpoint = value;
                  });
   }
@@ -59,8 +60,7 @@ void declare_run(Declarer& declare, RenderOptions& options, bool names_checkpoin
   declare.text("--preview", "FILE.exr|.png|.hdr|.pfm", "the picture so far, from the first pass on",
                [&](const std::string& value) {
                  if (!image::has_known_extension(value)) {
-                   throw refusal("--preview", value,
-                                 "a file name that ends in .exr, .png, .hdr or .pfm");
+                   refuse("--preview", value, "a file name that ends in .exr, .png, .hdr or .pfm");
                  }
                  run.preview = value;
                });
@@ -69,14 +69,14 @@ void declare_run(Declarer& declare, RenderOptions& options, bool names_checkpoin
   declare.text("--progress", "text|json", "json: an object a line on stderr (default text)",
                [&](const std::string& value) {
                  if (value != "text" && value != "json") {
-                   throw refusal("--progress", value, "one of text, json");
+                   refuse("--progress", value, "one of text, json");
                  }
                  run.progress_json = value == "json";
                });
   declare.text("--output-fallback", "FOLDER",
                "where files go that cannot be written where they should",
                [&](const std::string& value) {
-                 if (value.empty()) throw refusal("--output-fallback", value, "a folder");
+                 if (value.empty()) refuse("--output-fallback", value, "a folder");
                  run.fallback = value;
                });
 }
