@@ -11,6 +11,10 @@ void Log::warn(const std::string& text) {
   if (verbosity_ != Verbosity::quiet) std::fprintf(stderr, "ppm-vk: warning: %s\n", text.c_str());
 }
 
+void Log::tell(const std::string& text) const {
+  if (verbosity_ != Verbosity::quiet) std::fprintf(stderr, "ppm-vk: %s\n", text.c_str());
+}
+
 void Log::note(const std::string& text) const {
   if (verbosity_ == Verbosity::verbose) std::fprintf(stderr, "ppm-vk: %s\n", text.c_str());
 }

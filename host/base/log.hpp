@@ -16,6 +16,8 @@ class Log {
 
   /// `ppm-vk: warning: TEXT`, the first time this text is seen.
   void warn(const std::string& text);
+  /// `ppm-vk: TEXT`, unless quiet: what people want to know, though nothing is wrong.
+  void tell(const std::string& text) const;
   /// `ppm-vk: TEXT`, in verbose mode only.
   void note(const std::string& text) const;
 

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "failure.hpp"
+#include "memory_shortage.hpp"
 
 namespace ppm::gpu {
 namespace {
@@ -73,6 +74,9 @@ std::string result_name(VkResult result) {
 }
 
 VkResult require_success(const std::string& device, const char* call, VkResult result) {
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+    throw MemoryShortage(device, call, result_name(result), remedy(result));
+  }
   if (result < 0) throw Failure(device, call, result_name(result), remedy(result));
   return result;
 }

@@ -27,7 +27,8 @@ bool fault_is_due(const char* call);
 /// "VK_ERROR_DEVICE_LOST"; numbers for results unknown here.
 std::string result_name(VkResult result);
 
-/// Throws Failure(device, call, result name, remedy) for errors; returns the other results.
+/// Throws Failure(device, call, result name, remedy) for errors, MemoryShortage where it is the
+/// device's memory; returns the other results.
 VkResult require_success(const std::string& device, const char* call, VkResult result);
 
 /// What Vulkan's pairs of calls list: `call(&count, nullptr)` counts, `call(&count, data)` fills.

@@ -5,6 +5,7 @@
 #include "call.hpp"
 #include "failure.hpp"
 #include "implementation.hpp"
+#include "memory_shortage.hpp"
 
 namespace ppm::gpu {
 namespace {
@@ -75,7 +76,7 @@ void RawBuffer::create(Device::Implementation& device, const std::string& name, 
     if (!is_shortage(result)) break;
   }
   if (is_shortage(result)) {
-    throw Failure(
+    throw MemoryShortage(
         device.name(), "vkAllocateMemory",
         result_name(result) + " for " + megabytes(requirements.size) + " of the buffer " + name +
             " beside " + megabytes(device.allocated_bytes) + " in use",

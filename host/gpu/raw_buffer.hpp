@@ -28,8 +28,8 @@ class RawBuffer {
   RawBuffer(const RawBuffer&) = delete;
   RawBuffer& operator=(const RawBuffer&) = delete;
 
-  /// Throws Failure(device, vkAllocateMemory, result with the buffer's name and size, remedy) and
-  /// the like.
+  /// Throws MemoryShortage(device, vkAllocateMemory, result with the buffer's name and size,
+  /// remedy), and Failure for the like.
   void create(Device::Implementation& device, const std::string& name, VkDeviceSize bytes,
               VkBufferUsageFlags usage, Memory kind);
 
