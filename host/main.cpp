@@ -9,6 +9,7 @@
 #include "bench_command.hpp"
 #include "compare_command.hpp"
 #include "devices_command.hpp"
+#include "exit_code.hpp"
 #include "failure.hpp"
 #include "info_command.hpp"
 #include "inspect_command.hpp"
@@ -62,5 +63,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {  // Failure among them
     std::fprintf(stderr, "ppm-vk: error: %s\n", error.what());
   }
-  return 1;
+  return ppm::cli::kFailed;
 }

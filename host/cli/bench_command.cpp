@@ -10,6 +10,7 @@
 #include "builtin_scenes.hpp"
 #include "comparison.hpp"
 #include "driver.hpp"
+#include "exit_code.hpp"
 #include "failure.hpp"
 #include "load_gltf.hpp"
 #include "machine.hpp"
@@ -23,8 +24,6 @@
 
 namespace ppm::cli {
 namespace {
-
-constexpr int kInterrupted = 130;
 
 std::function<render::Settings(const scene::Scene&, Log&)> settings_from(
     const RenderOptions& render) {
@@ -199,7 +198,7 @@ int bench_command(const BenchOptions& options) {
   if (!options.compare.empty()) old = bench::read_results(options.compare);
   if (!options.with.empty()) {
     report_comparison(options, *old, bench::read_results(options.with), stdout, log);
-    return 0;
+    return kDone;
   }
   const bool json_on_stdout = options.json == "-";
   if (!options.json.empty() && !json_on_stdout) check_creatable(options.json);
@@ -216,7 +215,7 @@ int bench_command(const BenchOptions& options) {
   if (options.scaling) std::fputs(bench::scaling_table(*results).c_str(), out);
   if (!options.json.empty()) write_json(options.json, *results);
   if (old) report_comparison(options, *old, *results, out, log);
-  return 0;
+  return kDone;
 }
 
 }  // namespace ppm::cli

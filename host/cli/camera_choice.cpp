@@ -14,7 +14,6 @@ namespace ppm::cli {
 namespace {
 
 constexpr double kDefaultAspect = 4.0 / 3.0;
-constexpr std::uint32_t kLargestSide = 32768;
 constexpr double kFarthest = 1e18;  // in the working frame: single precision can square it
 
 std::string list_cameras(const scene::Scene& scene) {

@@ -8,6 +8,7 @@
 #include "circumstances.hpp"
 #include "compare.hpp"
 #include "driver.hpp"
+#include "exit_code.hpp"
 #include "failure.hpp"
 #include "fingerprint.hpp"
 #include "load_gltf.hpp"
@@ -17,7 +18,6 @@
 namespace ppm::cli {
 namespace {
 
-constexpr int kInterrupted = 130;
 constexpr double kReferenceFactor = 10.0;
 // Unbiased, the best first.
 constexpr std::string_view kCandidates[] = {"bdpt", "pt-mis", "pt"};
@@ -41,12 +41,6 @@ compare::Method method_by_name(std::string_view name, const render::Settings& co
   return method;
 }
 
-bool is_known(std::string_view name) {
-  const auto methods = render::methods();
-  return std::any_of(methods.begin(), methods.end(),
-                     [&](const render::Method& method) { return method.name == name; });
-}
-
 compare::ReferencePlan reference_plan(const CompareOptions& options, const render::Settings& common,
                                       double seconds) {
   compare::ReferencePlan plan;
@@ -61,7 +55,8 @@ compare::ReferencePlan reference_plan(const CompareOptions& options, const rende
     const bool takes_part =
         std::any_of(options.methods.begin(), options.methods.end(),
                     [&](const NamedMethod& method) { return method.settings.integrator == name; });
-    if (takes_part || !is_known(name) || plan.candidates.size() == kMostCandidates) continue;
+    if (takes_part || !render::is_method(name) || plan.candidates.size() == kMostCandidates)
+      continue;
     plan.candidates.push_back(method_by_name(name, common));
   }
   return plan;
@@ -176,7 +171,7 @@ int compare_command(const CompareOptions& options) {
     throw Failure((options.report / "index.html").string(), "",
                   "not every method could render this", "see there for what was wrong");
   }
-  return 0;
+  return kDone;
 }
 
 }  // namespace ppm::cli

@@ -17,12 +17,6 @@ constexpr unsigned kMostSeeds = 1000;
 // Those of the paper; what is not built in is left out.
 constexpr std::string_view kUsualMethods[] = {"ppm", "pt", "bdpt", "mlt", "pm"};
 
-bool is_known(std::string_view method) {
-  const auto methods = render::methods();
-  return std::any_of(methods.begin(), methods.end(),
-                     [&](const render::Method& known) { return known.name == method; });
-}
-
 std::string known_methods() {
   std::string names;
   for (const render::Method& method : render::methods()) {
@@ -49,7 +43,7 @@ std::optional<glm::vec<kCount, std::uint32_t>> parse_pixels(std::string_view tex
   if (parts.size() != kCount) return std::nullopt;
   for (int i = 0; i < kCount; ++i) {
     const auto number = parse_number<std::uint32_t>(parts[static_cast<std::size_t>(i)]);
-    if (!number || *number > 32768u) return std::nullopt;
+    if (!number || *number > kLargestSide) return std::nullopt;
     numbers[i] = *number;
   }
   return numbers;
@@ -60,7 +54,7 @@ std::optional<glm::vec<kCount, std::uint32_t>> parse_pixels(std::string_view tex
 NamedMethod parse_method(const char* option, const std::string& text,
                          const CompareOptions& options) {
   const std::vector<std::string> parts = split(text, ':');
-  if (!is_known(parts.front())) {
+  if (!render::is_method(parts.front())) {
     refuse(option, parts.front(), "one of " + known_methods());
   }
   RenderOptions own = options.render;
@@ -103,7 +97,7 @@ void declare_comparison(Declarer& declare, CompareOptions& options) {
                            [] {
                              std::string names;
                              for (const std::string_view name : kUsualMethods) {
-                               if (!is_known(name)) continue;
+                               if (!render::is_method(name)) continue;
                                names += names.empty() ? "" : ",";
                                names += name;
                              }
@@ -234,7 +228,7 @@ void check_compare(const CLI::App& app, CompareOptions& options) {
     }
   } else {
     for (const std::string_view name : kUsualMethods) {
-      if (!is_known(name)) continue;
+      if (!render::is_method(name)) continue;
       options.methods.push_back(parse_method("--methods", std::string(name), options));
     }
   }

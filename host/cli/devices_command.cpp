@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "exit_code.hpp"
 #include "failure.hpp"
 
 namespace ppm::cli {
@@ -32,7 +33,7 @@ int devices_command() {
     throw Failure("Vulkan", "", "no device can serve",
                   "install a driver, such as Mesa's lavapipe for the CPU");
   }
-  return 0;
+  return kDone;
 }
 
 }  // namespace ppm::cli

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "checkpoint.hpp"
+#include "exit_code.hpp"
 #include "picture_facts.hpp"
 
 namespace ppm::cli {
@@ -82,7 +83,7 @@ int info_command(const InfoOptions& options) {
   // Names come from files: what is no UTF-8 is replaced, not thrown at.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   std::fputs((options.json ? text : lines_of(json)).c_str(), stdout);
-  return 0;
+  return kDone;
 }
 
 }  // namespace ppm::cli

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "exit_code.hpp"
 #include "inspect_report.hpp"
 #include "load_gltf.hpp"
 #include "scene_settings.hpp"
@@ -16,7 +17,7 @@ int inspect_command(const InspectOptions& options) {
   const render::Settings settings = settings_for(render, scene, log);
   const InspectReport report = inspect(scene, settings, log.warnings());
   std::fputs((options.json ? report_json(report) : report_text(report)).c_str(), stdout);
-  return 0;
+  return kDone;
 }
 
 }  // namespace ppm::cli

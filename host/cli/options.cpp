@@ -11,6 +11,7 @@
 
 #include "bench_options.hpp"
 #include "compare_options.hpp"
+#include "exit_code.hpp"
 #include "info_options.hpp"
 #include "inspect_options.hpp"
 #include "render_options.hpp"
@@ -47,7 +48,7 @@ Options usage_error(const std::string& what, const char* remedy) {
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::fprintf(stderr, "%s\n", line.c_str());
   Options options;
-  options.exit_code = 2;
+  options.exit_code = kWrongUsage;
   return options;
 }
 

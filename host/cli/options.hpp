@@ -17,6 +17,9 @@
 
 namespace ppm::cli {
 
+/// Pixels of a picture's side, at most.
+inline constexpr std::uint32_t kLargestSide = 32768;
+
 enum class Verb { render, resume, compare, bench, inspect, info, devices, nothing };
 
 /// How long a rendering goes on, beside passes and time, and what it leaves and tells on the way.

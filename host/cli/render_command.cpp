@@ -10,6 +10,7 @@
 #include "budget.hpp"
 #include "circumstances.hpp"
 #include "driver.hpp"
+#include "exit_code.hpp"
 #include "failure.hpp"
 #include "fingerprint.hpp"
 #include "load_gltf.hpp"
@@ -18,7 +19,6 @@
 namespace ppm::cli {
 namespace {
 
-constexpr int kInterrupted = 130;
 constexpr const char* kProgram = "ppm-vk " PPM_VERSION;
 
 using Clock = std::chrono::steady_clock;
@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point start) {
 
 int exit_code(render::Outcome outcome, const gpu::Device& device) {
   check_validation(device);
-  return outcome == render::Outcome::interrupted ? kInterrupted : 0;
+  return outcome == render::Outcome::interrupted ? kInterrupted : kDone;
 }
 
 render::Outputs outputs_for(const RenderOptions& options) {

@@ -18,7 +18,6 @@
 namespace ppm::cli {
 namespace {
 
-constexpr std::uint32_t kLargestSide = 32768;
 constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, where all are kept at once
 
 void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {

@@ -85,6 +85,12 @@ std::vector<Method> methods() {
   return all;
 }
 
+bool is_method(std::string_view name) {
+  return std::ranges::find(kIntegrators, name, [](const Entry& entry) {
+           return entry.method.name;
+         }) != std::end(kIntegrators);
+}
+
 Method method_named(std::string_view name) {
   return entry_named(name).method;
 }

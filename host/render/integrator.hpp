@@ -151,6 +151,7 @@ struct Method {
 
 /// All that make_integrator knows.
 std::vector<Method> methods();
+bool is_method(std::string_view name);
 /// Throws Failure on an unknown name.
 Method method_named(std::string_view name);
 

@@ -46,16 +46,6 @@ class BenchCli : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-void expect_one_error(const Result& result, int exit_code, const std::string& named) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_EQ(result.err.find("ppm-vk: error: "), result.err.rfind("ppm-vk: error: ")) << result.err;
-  const std::size_t start = result.err.rfind("ppm-vk: error: ");
-  ASSERT_NE(start, std::string::npos) << result.err;
-  const std::string line = result.err.substr(start);
-  EXPECT_EQ(line.find('\n'), line.size() - 1) << line;  // the last line, and one alone
-  EXPECT_NE(line.find(named), std::string::npos) << line;
-}
-
 TEST_F(BenchCli, PrintsATableAndWritesJson) {
   const Result result = run(small({"room", "--json", out("r.json")}));
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -68,15 +68,6 @@ class CompareCli : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-void expect_one_error(const Result& result, int exit_code, const std::string& named) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  const std::size_t start = result.err.find("ppm-vk: error: ");
-  ASSERT_NE(start, std::string::npos) << result.err;
-  const std::string line = result.err.substr(start);
-  EXPECT_EQ(line.find('\n'), line.size() - 1) << line;  // the last line, and one alone
-  EXPECT_NE(line.find(named), std::string::npos) << line;
-}
-
 TEST_F(CompareCli, GoesOnWhereItWasKilledAndReportsAll) {
   {
     Program program(small("0.3", {"--seeds", "2"}));

@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -92,6 +93,16 @@ Result Program::finish() {
   if (WIFEXITED(status)) result_.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) result_.signal = WTERMSIG(status);
   return result_;
+}
+
+void expect_one_error(const Result& result, int exit_code, const std::string& named) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_EQ(result.err.find("ppm-vk: error: "), result.err.rfind("ppm-vk: error: ")) << result.err;
+  const std::size_t start = result.err.rfind("ppm-vk: error: ");
+  ASSERT_NE(start, std::string::npos) << result.err;
+  const std::string line = result.err.substr(start);
+  EXPECT_EQ(line.find('\n'), line.size() - 1) << line;  // the last line, and one alone
+  EXPECT_NE(line.find(named), std::string::npos) << line;
 }
 
 }  // namespace ppm::test

@@ -47,4 +47,7 @@ inline Result run(const std::vector<std::string>& arguments) {
   return Program(arguments).finish();
 }
 
+/// The program ended with this and one error, its last line, which has `named` in it.
+void expect_one_error(const Result& result, int exit_code, const std::string& named);
+
 }  // namespace ppm::test
