@@ -13,3 +13,14 @@ if(PPM_SANITIZE)
   add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=address,undefined)
 endif()
+
+# The instrumented build is slow where headers are heavy: these rooms compile several files at a time, and without
+# optimisation, since none of them computes much.
+function(ppm_build_instrumented_quickly)
+  if(PPM_SANITIZE AND NOT PPM_FUZZ)
+    set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON)
+    foreach(target ${ARGN})
+      target_compile_options(${target} PRIVATE -O0)
+    endforeach()
+  endif()
+endfunction()
