@@ -117,6 +117,9 @@ bool scatter(inout SubPath path, Surface surface, MediaInterface sides) {
   if (specular && !transmitted) direction = reflected_direction(surface, path.direction);
   float out_ng = dot(direction, surface.geometric_normal);
   if ((out_ng > 0.0) == transmitted) return false;
+  // A light path that comes from there sees another normal where this one would be below it, and never goes this way.
+  bool reversible = lit_above(shading_normal_towards(surface, direction), path.direction);
+  float reverse_pdf = reversible ? chosen.reverse_pdf_solid_angle : 0.0;
 
   // Roulette sees light as the light path does, which knows of no squared ratio of indices.
   vec3 throughput = path.throughput * chosen.weight;
@@ -129,8 +132,7 @@ bool scatter(inout SubPath path, Surface surface, MediaInterface sides) {
     float jacobian = transmitted ? specular_jacobian(wo.z, chosen.wi.z, surface.bsdf.eta) : 1.0;
     mis = mis_specular(mis, abs(out_ng), chosen.forward_pdf_solid_angle, chosen.reverse_pdf_solid_angle, jacobian);
   } else {
-    mis = mis_scatter(mis, abs(out_ng), chosen.forward_pdf_solid_angle, chosen.reverse_pdf_solid_angle,
-                      camera_connects(path.state));
+    mis = mis_scatter(mis, abs(out_ng), chosen.forward_pdf_solid_angle, reverse_pdf, camera_connects(path.state));
     path.state &= ~PPM_BDPT_SPECULAR;
   }
   path.d_vcm = mis.d_vcm;

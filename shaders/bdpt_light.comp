@@ -82,6 +82,7 @@ bool scatter(inout SubPath path, Surface surface, MediaInterface sides) {
   if (chosen.specular != 0u && !transmitted) direction = reflected_direction(surface, path.direction);
   float out_ng = dot(direction, surface.geometric_normal);
   if ((out_ng > 0.0) == transmitted) return false;  // through the surface by way of its interpolated normal
+  if (!lit_above(shading_normal_towards(surface, direction), path.direction)) return false;  // as the eye sees it
 
   float factor = shading_normal_factor(wo.z, dot(path.direction, surface.geometric_normal),
                                        dot(direction, surface.shading_normal), out_ng);

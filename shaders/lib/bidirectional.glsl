@@ -100,22 +100,32 @@ struct Lead {
 
 Lead lead_towards(Meeting meeting, vec3 direction, bool light) {
   Surface surface = meeting.surface;
-  vec3 wo = to_local(-meeting.vertex.direction, surface.shading_normal);
-  vec3 wi = to_local(direction, surface.shading_normal);
+  vec3 arrival = meeting.vertex.direction;
+  // About the normal that this path sees, and about that which one sees that comes from the other side.
+  vec3 own_wo = to_local(-arrival, surface.shading_normal);
+  vec3 own_wi = to_local(direction, surface.shading_normal);
+  vec3 other_normal = shading_normal_towards(surface, direction);
+  vec3 other_wo = to_local(-arrival, other_normal);
+  vec3 other_wi = to_local(direction, other_normal);
+
+  vec3 wo = light ? other_wo : own_wo;  // f_r is about the eye's
+  vec3 wi = light ? other_wi : own_wi;
   float out_ng = dot(direction, surface.geometric_normal);
   bool through = wi.z < 0.0;
-  bool sound = wi.z != 0.0 && (out_ng > 0.0) != through;
+  bool sound = wo.z > 0.0 && wi.z != 0.0 && (out_ng > 0.0) != through;
   Lead lead;
-  lead.value = sound ? meeting.vertex.throughput * bsdf_eval(surface.bsdf, wo, wi) * abs(wi.z) : vec3(0.0);
+  lead.value = sound ? meeting.vertex.throughput * bsdf_eval(surface.bsdf, wo, wi) : vec3(0.0);
   if (light) {
+    // |cosine| * shading_normal_factor, where the cosine that this divides by falls out
     if (through) lead.value *= square(surface.bsdf.eta);
-    float factor =
-        shading_normal_factor(wo.z, dot(meeting.vertex.direction, surface.geometric_normal), wi.z, out_ng);
+    float factor = merge_normal_factor(wo.z, dot(arrival, surface.geometric_normal));
     if (factor > PPM_MAX_NORMAL_FACTOR && max_component(lead.value) > 0.0) count_event(PPM_COUNTER_CLAMPED);
-    lead.value *= min(factor, PPM_MAX_NORMAL_FACTOR);
+    lead.value *= abs(out_ng) * min(factor, PPM_MAX_NORMAL_FACTOR);
+  } else {
+    lead.value *= abs(wi.z);
   }
-  lead.forward_pdf = bsdf_pdf_solid_angle(surface.bsdf, wo, wi);
-  lead.reverse_pdf = bsdf_reverse_pdf_solid_angle(surface.bsdf, wo, wi);
+  lead.forward_pdf = bsdf_pdf_solid_angle(surface.bsdf, own_wo, own_wi);
+  lead.reverse_pdf = other_wo.z > 0.0 ? bsdf_reverse_pdf_solid_angle(surface.bsdf, other_wo, other_wi) : 0.0;
   lead.cosine = abs(out_ng);
   lead.origin = offset_origin(surface.position, out_ng > 0.0 ? surface.geometric_normal : -surface.geometric_normal);
   lead.media = through ? meeting.sides.after : meeting.sides.before;

@@ -10,11 +10,12 @@
 #include "shared/bsdf.h"
 #include "shared/bsdf/dispersion.h"
 
-// A point on a surface as a path meets it. Both normals are on the side the path comes from.
+// A point on a surface as a path meets it. All normals are on the side the path comes from.
 struct Surface {
   vec3 position;
   vec3 geometric_normal;
-  vec3 shading_normal;
+  vec3 interpolated_normal, mapped_normal;  // the latter 0 where there is none
+  vec3 shading_normal;                      // of these, that which the path sees
   uint material;       // index
   uint flags;          // of the material
   uint medium;         // that begins behind the front side, 0 for none
@@ -97,6 +98,20 @@ vec3 mapped_normal(vec3 normal, vec4 tangent, vec3 map, float scale) {
   return mapped_size > 0.0 ? mapped / mapped_size : normal;
 }
 
+// The shading normal that a path sees which comes or goes along `direction`: the finest that has the path on the same
+// side as the geometric normal.
+vec3 shading_normal_towards(Surface surface, vec3 direction) {
+  float side = dot(surface.geometric_normal, direction) < 0.0 ? -1.0 : 1.0;
+  vec3 normal = surface.geometric_normal;
+  normal = side * dot(surface.interpolated_normal, direction) > 0.0 ? surface.interpolated_normal : normal;
+  if (kTextures && kDetails) normal = side * dot(surface.mapped_normal, direction) > 0.0 ? surface.mapped_normal : normal;
+  return normal;
+}
+
+// How a surface scatters is what the eye sees: its f_r is about the normal that the eye's side of the path sees. Whether
+// light that travels along `direction` shows at all in a `normal` chosen by the eye's side.
+bool lit_above(vec3 normal, vec3 direction) { return dot(normal, direction) < 0.0; }
+
 // `direction` is the way the path travels.
 Surface surface_at(Hit hit, vec3 direction) {
   TriangleCorners corners = fetch_triangle(hit.triangle);
@@ -129,15 +144,14 @@ Surface surface_at(Hit hit, vec3 direction) {
   float size = length(interpolated);
   interpolated = size > 0.0 ? interpolated / size : geometric;
   float side = dot(interpolated, surface.geometric_normal) < 0.0 ? -1.0 : 1.0;
-  vec3 shading = side * interpolated;
-  // A path that arrives above the geometric but below the shading surface sees the former.
-  surface.shading_normal = dot(shading, direction) < 0.0 ? shading : surface.geometric_normal;
+  surface.interpolated_normal = side * interpolated;
+  surface.mapped_normal = vec3(0.0);
   if (kTextures && kDetails) {
-    // Seen from behind all of a normal map is turned round. Where it points away from the path, it is left out.
+    // Seen from behind all of a normal map is turned round.
     vec3 mapped = side * mapped_normal(interpolated, details.tangent, map, material.normal_scale);
-    bool usable = dot(mapped, surface.geometric_normal) > 0.0 && dot(mapped, direction) < 0.0;
-    surface.shading_normal = usable ? mapped : surface.shading_normal;
+    surface.mapped_normal = dot(mapped, surface.geometric_normal) > 0.0 ? mapped : vec3(0.0);
   }
+  surface.shading_normal = shading_normal_towards(surface, direction);
 
   bool emits = surface.front || (material.flags & PPM_MATERIAL_DOUBLE_SIDED) != 0u;
   surface.emission = emits ? material.emission : vec3(0.0);

@@ -149,7 +149,7 @@ const Case kCases[] = {
      16,
      0.0},
     {"PunctualLights", add_punctual_lights, {kNextEvent, kLens}, 6, 0.0},
-    // Interpolated normals on a coarse ball: factors above 10 are clamped on the light's side.
+    // Between two events factors above 10 are clamped on the light's side: too few to show.
     {"InterpolatedNormals",
      [](GltfWriter& writer) {
        add_lamp(writer);
@@ -158,7 +158,18 @@ const Case kCases[] = {
      },
      {kNextEvent, kLens},
      16,
-     0.005},
+     0.0},
+    // Where the eye, or the light, is above the facet but below its normal, what they see differs.
+    {"SpotOnACoarseBall",
+     [](GltfWriter& writer) {
+       writer.mesh(icosphere(0), writer.material(lambert(glm::dvec3(0.8))),
+                   placed({0.0, -0.1, -0.2}, 0.7));
+       writer.spot_light({0.9, 0.6, 0.5}, {-0.9, -0.7, -0.7}, {1.0, 0.8, 0.6}, 10.0, 0.5, 0.7);
+     },
+     {kNextEvent, kLens},
+     64,
+     0.0,
+     [](scene::Scene&, render::Settings& settings) { settings.max_depth = 1; }},
     // All that is seen left a plate whose normals lean by 0.35, away from the camera.
     {"LitByALeaningPlate",
      [](GltfWriter& writer) {
