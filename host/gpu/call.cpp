@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "device_lost.hpp"
 #include "failure.hpp"
 #include "memory_shortage.hpp"
 
@@ -34,10 +35,13 @@ FaultInjection& fault_injection() {
   return injection;
 }
 
-bool fault_is_due(const char* call) {
+bool fault_is_due(const char* call, const std::source_location& place) {
   FaultInjection& injection = fault_injection();
   // Kernels may be made by another thread.
-  if (++std::atomic_ref(injection.calls) != injection.fail_at) return false;
+  const std::uint64_t number = ++std::atomic_ref(injection.calls);
+  if (!(injection.chooses ? injection.chooses(call, place) : number == injection.fail_at)) {
+    return false;
+  }
   injection.failed = call;
   return true;
 }
@@ -76,6 +80,9 @@ std::string result_name(VkResult result) {
 VkResult require_success(const std::string& device, const char* call, VkResult result) {
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
     throw MemoryShortage(device, call, result_name(result), remedy(result));
+  }
+  if (result == VK_ERROR_DEVICE_LOST) {
+    throw DeviceLost(device, call, result_name(result), remedy(result));
   }
   if (result < 0) throw Failure(device, call, result_name(result), remedy(result));
   return result;

@@ -5,6 +5,8 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
+#include <functional>
+#include <source_location>
 #include <string>
 #include <vector>
 
@@ -18,17 +20,21 @@ struct FaultInjection {
   std::uint64_t fail_at = 0;  ///< 0: none
   VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
   const char* failed = nullptr;  ///< name of the call that was made to fail
+  /// Asked at each call of each place in the source, instead of counting up to `fail_at`: whether
+  /// this one is to fail. Several threads may ask at a time.
+  std::function<bool(const char* call, const std::source_location& place)> chooses = {};
 };
 FaultInjection& fault_injection();
 
 /// Whether this call is the one to fail; counts it.
-bool fault_is_due(const char* call);
+bool fault_is_due(const char* call,
+                  const std::source_location& place = std::source_location::current());
 
 /// "VK_ERROR_DEVICE_LOST"; numbers for results unknown here.
 std::string result_name(VkResult result);
 
 /// Throws Failure(device, call, result name, remedy) for errors, MemoryShortage where it is the
-/// device's memory; returns the other results.
+/// device's memory, DeviceLost; returns the other results.
 VkResult require_success(const std::string& device, const char* call, VkResult result);
 
 /// What Vulkan's pairs of calls list: `call(&count, nullptr)` counts, `call(&count, data)` fills.

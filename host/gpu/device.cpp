@@ -140,7 +140,7 @@ void Device::Implementation::submit_and_wait() {
   PPM_VK_CALL(name(), vkQueueSubmit, queue, 1, &info, fence);
   const VkResult waited = PPM_VK_TRY(vkWaitForFences, handle, 1, &fence, VK_TRUE, UINT64_MAX);
   // The caller may free what the commands use, so that they must have ended even now.
-  if (waited < 0) vkDeviceWaitIdle(handle);
+  if (waited < 0) (void)PPM_VK_TRY(vkDeviceWaitIdle, handle);
   require_success(name(), "vkWaitForFences", waited);
 }
 

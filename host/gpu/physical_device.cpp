@@ -60,10 +60,11 @@ std::uint64_t largest_device_heap(VkPhysicalDevice handle) {
   return bytes;
 }
 
-bool has_extension(VkPhysicalDevice handle, std::string_view name) {
+bool has_extension(const PhysicalDevice& device, std::string_view name) {
   const auto extensions =
       enumerate<VkExtensionProperties>([&](std::uint32_t* count, VkExtensionProperties* data) {
-        return vkEnumerateDeviceExtensionProperties(handle, nullptr, count, data);
+        PPM_VK_CALL(device.description.name, vkEnumerateDeviceExtensionProperties, device.handle,
+                    nullptr, count, data);
       });
   return std::ranges::any_of(extensions, [&](const VkExtensionProperties& extension) {
     return name == extension.extensionName;
@@ -208,7 +209,7 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   description.memory_bytes = largest_device_heap(handle);
   if (device.properties.apiVersion >= VK_API_VERSION_1_2) {
     describe_1_2(device);
-    device.tells_budget = has_extension(handle, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    device.tells_budget = has_extension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   } else {
     description.obstacles.push_back("it offers Vulkan " + description.api_version +
                                     ", but 1.2 is needed");

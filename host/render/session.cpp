@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device_lost.hpp"
 #include "failure.hpp"
 #include "image.hpp"
 #include "report.hpp"
@@ -134,6 +135,8 @@ bool Session::make_passes() {
 void Session::attempt(const std::function<void()>& deed, const char* consequence) {
   try {
     deed();
+  } catch (const gpu::DeviceLost&) {
+    throw;
   } catch (const Failure& failure) {
     progress_.end();
     log_.warn(fmt::format("{}{}", failure.what(), consequence));

@@ -46,7 +46,8 @@ class Session {
   void restore();
   void look_at_picture();
   void keep();
-  /// Does `deed`; of a Failure no more comes than a warning that ends with `consequence`.
+  /// Does `deed`; of a Failure no more comes than a warning that ends with `consequence`, unless
+  /// the device is lost.
   void attempt(const std::function<void()>& deed, const char* consequence);
   std::uint64_t passes() { return integrator_.statistics().passes; }
   double seconds() const;
