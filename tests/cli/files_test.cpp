@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/capability.h>
-#include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,6 +15,7 @@
 
 #include "gltf_writer.hpp"
 #include "program.hpp"
+#include "small_disk.hpp"
 #include "temporary_folder.hpp"
 
 namespace ppm::test {
@@ -143,28 +143,8 @@ TEST_F(CliFiles, ScenesWithDashes) {
   EXPECT_TRUE(folder_.names().contains("o.hdr"));
 }
 
-/// A file system of one page, where the right to mount it is there.
-class SmallDisk {
- public:
-  explicit SmallDisk(std::string folder) : folder_(std::move(folder)) {
-    std::filesystem::create_directory(folder_);
-    is_there_ = mount("ppm-vk-test", folder_.c_str(), "tmpfs", 0, "size=4k") == 0;
-  }
-  ~SmallDisk() {
-    if (is_there_) umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
-  bool is_there() const { return is_there_; }
-
- private:
-  std::string folder_;
-  bool is_there_ = false;
-};
-
 TEST_F(CliFiles, FullDiskTakesNoPartOfAPicture) {
-  const SmallDisk disk(path("disk"));
+  const SmallDisk disk(folder_ / "disk", "4k");
   if (!disk.is_there()) GTEST_SKIP() << "nothing can be mounted here";
   write_text(folder_ / "disk/o.hdr", "old");
   for (const char* name : {"disk/o.hdr", "disk/new.hdr"}) {

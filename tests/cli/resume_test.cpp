@@ -10,77 +10,28 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "gltf_writer.hpp"
-#include "program.hpp"
+#include "kept_rendering.hpp"
 #include "read_picture.hpp"
-#include "temporary_folder.hpp"
 
 namespace ppm::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// Passes that would take weeks.
 constexpr const char* kEndless = "4000000000";
 
-GltfWriter lit_floor(double grey) {
-  GltfWriter writer;
-  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
-              writer.material(lambert(glm::dvec3(grey))));
-  writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-  return writer;
-}
-
-class CliResume : public ::testing::Test {
+class CliResume : public KeptRendering {
  protected:
-  CliResume() { lit_floor(0.5).write(folder_ / "s.glb"); }
-
-  std::string path(std::string_view name) const { return (folder_ / name).string(); }
-
-  Words render(const Words& more) const {
-    Words words = {"render", path("s.glb"), "--width", "16", "--photons", "2000"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  /// Keeps a checkpoint after each pass and says so.
-  Words kept(const Words& more) const {
-    Words words = render({"-o", path("o.exr"), "--checkpoint", path("c"), "--checkpoint-every",
-                          "0.0001", "--progress", "json"});
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  Words resume(const Words& more) const {
-    Words words = {"resume", path("c"), "--progress", "json"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  std::string one_go(const Words& more) const {
-    Words words = render({"-o", path("whole.exr"), "--quiet"});
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(run(words).exit_code, 0);
-    return file_text(folder_ / "whole.exr");
-  }
-  /// Of the checkpoint, which must be sound.
-  std::uint64_t kept_passes() const {
-    const Result result = run({"info", path("c"), "--json"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return nlohmann::json::parse(result.out)["passes"];
-  }
   /// One line for the error, besides those of progress, which has these words.
   static void expect_refused(const Result& result, int exit_code, const std::string& words) {
     EXPECT_EQ(result.exit_code, exit_code) << result.err << "signal " << result.signal;
     EXPECT_NE(result.err.find("ppm-vk: error: "), std::string::npos) << result.err;
     EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 // Twenty kills of one rendering, each at another moment, some while it starts; what is left goes

@@ -1,0 +1,75 @@
+// A small rendering by the program that keeps a checkpoint, for tests that disturb it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gltf_writer.hpp"
+#include "program.hpp"
+#include "temporary_folder.hpp"
+
+namespace ppm::test {
+
+using Words = std::vector<std::string>;
+
+inline GltfWriter lit_floor(double grey) {
+  GltfWriter writer;
+  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
+              writer.material(lambert(glm::dvec3(grey))));
+  writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
+  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
+  return writer;
+}
+
+class KeptRendering : public ::testing::Test {
+ protected:
+  /// The checkpoint "c" and the picture "o.exr" are in the folder of this name within the test's,
+  /// which need not be there yet; "": in the test's own.
+  explicit KeptRendering(std::string place = "") : place_(std::move(place)) {
+    lit_floor(0.5).write(folder_ / "s.glb");
+  }
+
+  std::string path(std::string_view name) const { return (folder_ / name).string(); }
+  std::filesystem::path checkpoint() const { return folder_.path() / place_ / "c"; }
+  std::filesystem::path picture() const { return folder_.path() / place_ / "o.exr"; }
+
+  Words render(const Words& more) const {
+    Words words = {"render", path("s.glb"), "--width", "16", "--photons", "2000"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  /// Keeps a checkpoint after each pass and says so.
+  Words kept(const Words& more) const {
+    Words words = render({"-o", picture(), "--checkpoint", checkpoint(), "--checkpoint-every",
+                          "0.0001", "--progress", "json"});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  Words resume(const Words& more) const {
+    Words words = {"resume", checkpoint(), "--progress", "json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  std::string one_go(const Words& more) const {
+    Words words = render({"-o", path("whole.exr"), "--quiet"});
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words).exit_code, 0);
+    return file_text(folder_ / "whole.exr");
+  }
+  /// Of the checkpoint, which must be sound.
+  std::uint64_t kept_passes() const {
+    const Result result = run({"info", checkpoint(), "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    if (result.exit_code != 0) return 0;
+    return nlohmann::json::parse(result.out)["passes"];
+  }
+
+  TemporaryFolder folder_;
+  std::string place_;
+};
+
+}  // namespace ppm::test
