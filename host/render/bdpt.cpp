@@ -55,6 +55,13 @@ bool BdptIntegrator::prepare(const std::function<bool()>& interrupted) {
   return !interrupted();
 }
 
+void BdptIntegrator::look_from(const scene::Camera& camera) {
+  settings_.camera = camera;
+  buffers_.look_from(settings_, traits_, device_);
+  film_.clear();
+  statistics_ = statistics_.of_scene();
+}
+
 bool BdptIntegrator::advance(const std::function<bool()>& interrupted) {
   return advance_up_to(1, interrupted) == 1;
 }

@@ -8,11 +8,17 @@
 
 namespace ppm::render {
 
-std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
-                                          gpu::Device& device) {
-  if (may_need_segments(scene, gpu::segment_size(device, settings.segment_bytes))) return {};
-  return std::async(std::launch::async,
-                    [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); });
+EarlyEyeKernels::EarlyEyeKernels(const scene::Scene& scene, const Settings& settings,
+                                 gpu::Device& device)
+    : device_(device) {
+  if (may_need_segments(scene, gpu::segment_size(device, settings.segment_bytes))) return;
+  begun_ = std::async(std::launch::async,
+                      [&device, traits = traits_of(scene)] { return EyeKernels(device, traits); });
+}
+
+const EyeKernels& EarlyEyeKernels::get(const SceneTraits& traits) {
+  if (!kernels_) kernels_ = begun_.valid() ? begun_.get() : EyeKernels(device_, traits);
+  return *kernels_;
 }
 
 void check_paths(const Settings& settings) {

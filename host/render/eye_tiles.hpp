@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <future>
+#include <optional>
 #include <vector>
 
 #include "eye_pass.hpp"
@@ -11,10 +12,20 @@
 
 namespace ppm::render {
 
-/// Begins to make the kernels while the tree is built; not in scenes whose buffers must be known
-/// first.
-std::future<EyeKernels> begin_eye_kernels(const scene::Scene& scene, const Settings& settings,
-                                          gpu::Device& device);
+/// Kernels of the eye pass, begun while the tree is built; in scenes whose buffers must be known
+/// first, made when they are needed.
+class EarlyEyeKernels {
+ public:
+  EarlyEyeKernels(const scene::Scene& scene, const Settings& settings, gpu::Device& device);
+
+  /// `traits`: with those of the buffers (SceneBuffers::traits_of).
+  const EyeKernels& get(const SceneTraits& traits);
+
+ private:
+  gpu::Device& device_;
+  std::future<EyeKernels> begun_;
+  std::optional<EyeKernels> kernels_;
+};
 
 /// Throws Failure where there are more eye paths or photon paths a pass than can be numbered.
 void check_paths(const Settings& settings);

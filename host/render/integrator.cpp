@@ -70,6 +70,16 @@ std::unique_ptr<Integrator> make_integrator(const Settings& settings, const scen
   return entry_named(settings.integrator).make(settings, scene, device, log, threads);
 }
 
+Statistics Statistics::of_scene() const {
+  Statistics kept;
+  kept.triangles = triangles;
+  kept.lights = lights;
+  for (const char* const part : {"bvh", "upload", "pipelines"}) {
+    if (const auto entry = seconds.find(part); entry != seconds.end()) kept.seconds.insert(*entry);
+  }
+  return kept;
+}
+
 bool Method::has_option(std::string_view option) const {
   for (std::string_view rest = options; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());

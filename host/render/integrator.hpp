@@ -72,6 +72,9 @@ struct Statistics {
       seconds;  ///< bvh, upload, pipelines, pilot, eye, photons, grid, update, resolve
   std::map<std::string, double> kernel_seconds;  ///< device time by kernel
   std::vector<double> pass_seconds;              ///< wall time of each pass
+
+  /// What does not depend on the camera.
+  Statistics of_scene() const;
 };
 
 /// Complete state between passes: enough to go on as if never stopped.
@@ -85,7 +88,7 @@ struct ProbeReading {
 };
 
 /// One rendering of one scene. Calls come in this order: prepare once (or restore), then any of the
-/// others.
+/// others; after look_from prepare again.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -108,6 +111,11 @@ class Integrator {
 
   /// Whether a further pass would change nothing: the method has all that it can take.
   virtual bool complete() const { return false; }
+
+  /// Forgets all passes, also where one was interrupted, and begins anew with `camera` in the place
+  /// of the settings', which must be as perspective or orthographic as that: the scene stays on the
+  /// device, and what follows is the same as from a new integrator.
+  virtual void look_from(const scene::Camera& camera) = 0;
 
   /// The picture after the passes so far.
   virtual Picture resolve() = 0;

@@ -172,6 +172,17 @@ bool MltIntegrator::prepare(const std::function<bool()>& interrupted) {
   return choose_starts(interrupted);
 }
 
+void MltIntegrator::look_from(const scene::Camera& camera) {
+  settings_.camera = camera;
+  buffers_.look_from(settings_, traits_, device_);
+  film_.clear();
+  proposals_.clear();
+  pool_ = 0;
+  steps_ = 0;
+  bootstrap_sum_ = normalisation_ = 0.0;
+  statistics_ = statistics_.of_scene();
+}
+
 bool MltIntegrator::choose_starts(const std::function<bool()>& interrupted) {
   if (!run(0, PPM_CHAINS_SAMPLE, bootstrap_, interrupted)) return false;
   const auto luminances = luminances_.download<float>(bootstrap_);

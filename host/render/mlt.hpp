@@ -20,6 +20,7 @@ class MltIntegrator final : public Integrator, public LayerSource {
 
   bool prepare(const std::function<bool()>& interrupted) override;
   bool advance(const std::function<bool()>& interrupted) override;
+  void look_from(const scene::Camera& camera) override;
   Picture resolve() override;
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;

@@ -59,6 +59,13 @@ bool PathTracer::prepare(const std::function<bool()>& interrupted) {
   return !interrupted();
 }
 
+void PathTracer::look_from(const scene::Camera& camera) {
+  settings_.camera = camera;
+  buffers_.look_from(settings_, traits_, device_);
+  film_.clear();
+  statistics_ = statistics_.of_scene();
+}
+
 bool PathTracer::advance(const std::function<bool()>& interrupted) {
   return advance_up_to(1, interrupted) == 1;
 }

@@ -22,6 +22,7 @@ class PathTracer final : public Integrator, public LayerSource {
   bool advance(const std::function<bool()>& interrupted) override;
   std::uint64_t advance_up_to(std::uint64_t passes,
                               const std::function<bool()>& interrupted) override;
+  void look_from(const scene::Camera& camera) override;
   Picture resolve() override;
   SavedState save_state() override;
   void restore_state(const SavedState& state) override;

@@ -36,6 +36,7 @@ class PhotonMap {
   void append(const gpu::BindingTable& table, std::uint64_t count);
   /// Forgets all but the first `photons`; of those sorted already none may be forgotten.
   void truncate(std::uint64_t photons);
+  void clear() { photons_ = sorted_ = 0; }
 
   /// Sorts all into cells of about `cell` working units.
   void sort(float cell);

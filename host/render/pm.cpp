@@ -73,7 +73,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::
     : settings_(settings),
       scene_(scene),
       device_(device),
-      eye_kernels_(begin_eye_kernels(scene, settings, device)),
+      eye_kernels_(scene, settings, device),
       buffers_(scene, settings, device, threads),
       traits_(buffers_.traits_of(scene)),
       table_(buffers_.table()),
@@ -96,8 +96,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::
 
 bool PhotonMapIntegrator::prepare(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
-  const EyeKernels kernels =
-      eye_kernels_.valid() ? eye_kernels_.get() : EyeKernels(device_, traits_);
+  const EyeKernels& kernels = eye_kernels_.get(traits_);
   if (!trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_)) {
     return false;
   }
@@ -111,6 +110,19 @@ bool PhotonMapIntegrator::prepare(const std::function<bool()>& interrupted) {
   for (const HitTile& tile : tiles_) most = std::max(most, tile.hits);
   nearest_.emplace(device_, traits_, most);
   return true;
+}
+
+void PhotonMapIntegrator::look_from(const scene::Camera& camera) {
+  settings_.camera = camera;
+  buffers_.look_from(settings_, traits_, device_);
+  tiles_.clear();
+  nearest_.reset();
+  map_.clear();
+  cell_ = 0.0f;
+  complete_ = false;
+  estimated_ = 0;
+  rejected_ = {};
+  statistics_ = statistics_.of_scene();
 }
 
 PhotonMapIntegrator::Added PhotonMapIntegrator::add_photons(

@@ -34,6 +34,7 @@ class PhotonMapIntegrator final : public Integrator, public LayerSource {
   /// Puts one portion of paths into the map; of the last one as many as fit.
   bool advance(const std::function<bool()>& interrupted) override;
   bool complete() const override { return complete_; }
+  void look_from(const scene::Camera& camera) override;
   /// The estimate from the photons so far.
   Picture resolve() override;
   SavedState save_state() override;
@@ -57,7 +58,7 @@ class PhotonMapIntegrator final : public Integrator, public LayerSource {
   Settings settings_;
   const scene::Scene& scene_;
   gpu::Device& device_;
-  std::future<EyeKernels> eye_kernels_;
+  EarlyEyeKernels eye_kernels_;
   SceneBuffers buffers_;
   SceneTraits traits_;
   gpu::BindingTable table_;

@@ -30,7 +30,7 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       scene_(scene),
       device_(device),
       log_(log),
-      eye_kernels_(begin_eye_kernels(scene, settings, device)),
+      eye_kernels_(scene, settings, device),
       buffers_(scene, settings, device, threads),
       traits_(buffers_.traits_of(scene)),
       table_(buffers_.table()),
@@ -57,10 +57,18 @@ bool PpmIntegrator::prepare(const std::function<bool()>& interrupted) {
   return trace_eye_paths(interrupted) && find_initial_radii(interrupted);
 }
 
+void PpmIntegrator::look_from(const scene::Camera& camera) {
+  settings_.camera = camera;
+  buffers_.look_from(settings_, traits_, device_);
+  tiles_.clear();
+  probes_.clear();
+  in_steps_ = false;
+  statistics_ = statistics_.of_scene();
+}
+
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
-  const EyeKernels kernels =
-      eye_kernels_.valid() ? eye_kernels_.get() : EyeKernels(device_, traits_);
+  const EyeKernels& kernels = eye_kernels_.get(traits_);
   return trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_);
 }
 

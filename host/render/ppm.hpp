@@ -1,7 +1,6 @@
 // Progressive photon mapping [HOJ08]: the loop over passes.
 #pragma once
 
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +31,7 @@ class PpmIntegrator final : public Integrator, public LayerSource {
   bool advance(const std::function<bool()>& interrupted) override;
   std::uint64_t advance_up_to(std::uint64_t passes,
                               const std::function<bool()>& interrupted) override;
+  void look_from(const scene::Camera& camera) override;
   Picture resolve() override;
   std::optional<ProbeReading> probe(std::uint32_t x, std::uint32_t y) override;
   SavedState save_state() override;
@@ -78,8 +78,7 @@ class PpmIntegrator final : public Integrator, public LayerSource {
   const scene::Scene& scene_;
   gpu::Device& device_;
   Log& log_;
-  std::future<EyeKernels> eye_kernels_;  // made while the tree is built and the others are made,
-                                         // but in large scenes, whose buffers must be known
+  EarlyEyeKernels eye_kernels_;
   SceneBuffers buffers_;
   SceneTraits traits_;
   gpu::BindingTable table_;

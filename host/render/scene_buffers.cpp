@@ -79,9 +79,8 @@ shared::TriangleShading shading_record(const scene::Triangle& triangle) {
   return record;
 }
 
-shared::SceneConstants camera_constants(const Settings& settings) {
+void set_camera(shared::SceneConstants& constants, const Settings& settings) {
   const scene::Camera& camera = settings.camera;
-  shared::SceneConstants constants{};
   constants.camera_position = camera.position;
   constants.camera_right = camera.right;
   constants.camera_up = camera.up;
@@ -90,6 +89,11 @@ shared::SceneConstants camera_constants(const Settings& settings) {
   const double tan_half_y = camera.ymag ? *camera.ymag : std::tan(0.5 * camera.yfov);
   constants.camera_tan_half_y = static_cast<float>(tan_half_y);
   constants.camera_tan_half_x = static_cast<float>(tan_half_y * settings.width / settings.height);
+}
+
+shared::SceneConstants constants_of(const Settings& settings) {
+  shared::SceneConstants constants{};
+  set_camera(constants, settings);
   constants.width = settings.width;
   constants.height = settings.height;
   constants.seed = settings.seed;
@@ -128,7 +132,7 @@ bool may_need_segments(const scene::Scene& scene, gpu::SegmentSize size) {
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
                            unsigned threads)
     : segment_(gpu::segment_size(device, settings.segment_bytes)),
-      constants_(camera_constants(settings)) {
+      constants_(constants_of(settings)) {
   const MediaTable media = make_media_table(scene);
   const double start = clock_seconds();
   bvh::Bvh bvh = bvh::build(scene.triangles, threads);
@@ -179,6 +183,13 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const Settings& settings, 
                              gpu::Usage::storage_and_texels);
   find_start_media(device, traits_of(scene));
   upload_seconds_ = clock_seconds() - built;
+}
+
+void SceneBuffers::look_from(const Settings& settings, const SceneTraits& traits,
+                             gpu::Device& device) {
+  set_camera(constants_, settings);
+  constants_buffer_.upload(std::span<const shared::SceneConstants>(&constants_, 1));
+  find_start_media(device, traits);
 }
 
 void SceneBuffers::upload_triangles(const scene::Scene& scene, std::span<const std::uint32_t> order,

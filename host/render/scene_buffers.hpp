@@ -23,6 +23,10 @@ class SceneBuffers {
   SceneBuffers(const scene::Scene& scene, const Settings& settings, gpu::Device& device,
                unsigned threads);
 
+  /// Puts the camera of `settings`, all else in which is as it was, in the place of the last one.
+  /// `traits`: as traits_of had them.
+  void look_from(const Settings& settings, const SceneTraits& traits, gpu::Device& device);
+
   void bind(gpu::BindingTable& table) const;
   gpu::BindingTable table() const {
     gpu::BindingTable table;
@@ -50,7 +54,7 @@ class SceneBuffers {
                         std::span<const float> light_probabilities, gpu::Device& device,
                         unsigned threads);
   void upload_textures(const scene::Scene& scene, gpu::Device& device);
-  /// Fills `light_media_`. `traits`: as the scene alone has them.
+  /// Fills `light_media_`. `traits`: the scene's, with or without those of its buffers.
   void find_start_media(gpu::Device& device, SceneTraits traits);
 
   gpu::SegmentSize segment_;

@@ -28,6 +28,10 @@ class Counter : public render::Integrator {
     counted.pass_seconds.push_back(0.5);
     return true;
   }
+  void look_from(const scene::Camera& /*camera*/) override {
+    ++looked;
+    counted = {};
+  }
   render::Picture resolve() override {
     render::Picture picture{settings_.width, settings_.height, {}};
     for (std::uint32_t i = 0; i < settings_.width * settings_.height; ++i) {
@@ -47,7 +51,7 @@ class Counter : public render::Integrator {
   const render::Statistics& statistics() override { return counted; }
 
   render::Statistics counted;
-  int prepared = 0;
+  int prepared = 0, looked = 0;
   bool interrupt_in_prepare = false;
   std::uint64_t interrupt_in_pass = 0;
 
