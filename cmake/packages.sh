@@ -4,9 +4,9 @@
 set -eu
 
 packages="g++ cmake ninja-build glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers libglm-dev libfmt-dev
-  libcli11-dev nlohmann-json3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenimageio-dev openimageio-tools libxxhash-dev"
+  libcli11-dev nlohmann-json3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libopenimageio-dev openimageio-tools libxxhash-dev libglfw3-dev"
 if [ "${1:-}" = tests ]; then
-  packages="$packages libgtest-dev libembree-dev vulkan-validationlayers python3"
+  packages="$packages libgtest-dev libembree-dev vulkan-validationlayers python3 xvfb libxtst-dev"
 fi
 
 command -v dpkg-query >/dev/null || {

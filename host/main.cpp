@@ -16,6 +16,7 @@
 #include "options.hpp"
 #include "render_command.hpp"
 #include "resume_command.hpp"
+#include "view_command.hpp"
 
 namespace {
 
@@ -23,6 +24,8 @@ int act(const ppm::cli::Options& options) {
   switch (options.verb) {
     case ppm::cli::Verb::render:
       return ppm::cli::render_command(options.render);
+    case ppm::cli::Verb::view:
+      return ppm::cli::view_command(options.view);
     case ppm::cli::Verb::compare:
       return ppm::cli::compare_command(options.compare);
     case ppm::cli::Verb::bench:

@@ -5,7 +5,7 @@ set(faults "")
 # A header's beginning and the only rooms that may name it.
 set(owned
   "CLI/=cli" "OpenImageIO/=image|scene" "OpenEXR/=" "tiny_gltf=scene" "draco/=scene" "meshoptimizer=scene" "vulkan/=gpu"
-  "nlohmann/=bench|cli|compare|render|scene" "embree3/=" "xxhash=base")
+  "nlohmann/=bench|cli|compare|render|scene" "embree3/=" "xxhash=base" "GLFW/=view" "GL/=")
 
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/host/*.hpp ${SOURCE}/host/*.cpp
      ${SOURCE}/shaders/*.h ${SOURCE}/shaders/*.glsl ${SOURCE}/shaders/*.comp)

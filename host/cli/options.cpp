@@ -16,6 +16,7 @@
 #include "inspect_options.hpp"
 #include "render_options.hpp"
 #include "resume_options.hpp"
+#include "view_options.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -25,6 +26,7 @@ constexpr const char* kOverview =
     "\n"
     "  ppm-vk render SCENE.glb -o OUT.exr   render a scene\n"
     "  ppm-vk resume CHECKPOINT             go on with one that was stopped\n"
+    "  ppm-vk view SCENE.glb                watch it in a window and move the camera\n"
     "  ppm-vk compare SCENE.glb -o REPORT/  render it by several methods for the same time\n"
     "  ppm-vk bench [SCENE...]              measure how fast it renders\n"
     "  ppm-vk inspect SCENE.glb             say what a scene holds and what memory it takes\n"
@@ -125,6 +127,13 @@ Options parse_resume(const std::vector<std::string>& arguments) {
       [](const CLI::App& app, Options& options) { check_resume(app, options.resume); });
 }
 
+Options parse_view(const std::vector<std::string>& arguments) {
+  return parse_verb(
+      Verb::view, "view", arguments,
+      [](CLI::App& app, Options& options) { declare_view(app, options.view); },
+      [](const CLI::App& app, Options& options) { check_view(app, options.view); });
+}
+
 Options parse_info(const std::vector<std::string>& arguments) {
   return parse_verb(
       Verb::info, "info", arguments,
@@ -141,6 +150,7 @@ Options parse_help(const std::vector<std::string>& arguments) {
   if (arguments[0] == "bench") return parse_bench({"--help"});
   if (arguments[0] == "inspect") return parse_inspect({"--help"});
   if (arguments[0] == "resume") return parse_resume({"--help"});
+  if (arguments[0] == "view") return parse_view({"--help"});
   if (arguments[0] == "info") return parse_info({"--help"});
   if (arguments[0] == "devices") return printed(kDevicesHelp);
   return usage_error(arguments[0] + ": no such verb", "see ppm-vk help");
@@ -165,6 +175,7 @@ Options parse(int argc, const char* const* argv) {
   if (verb == "bench") return parse_bench(rest);
   if (verb == "inspect") return parse_inspect(rest);
   if (verb == "resume") return parse_resume(rest);
+  if (verb == "view") return parse_view(rest);
   if (verb == "info") return parse_info(rest);
   if (verb == "devices") return parse_devices(rest);
   if (verb == "help" || verb == "--help" || verb == "-h") return parse_help(rest);

@@ -20,7 +20,7 @@ namespace ppm::cli {
 /// Pixels of a picture's side, at most.
 inline constexpr std::uint32_t kLargestSide = 32768;
 
-enum class Verb { render, resume, compare, bench, inspect, info, devices, nothing };
+enum class Verb { render, resume, view, compare, bench, inspect, info, devices, nothing };
 
 /// How long a rendering goes on, beside passes and time, and what it leaves and tells on the way.
 struct RunOptions {
@@ -43,7 +43,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> width,
       height;  ///< Settings::width and height follow once the camera is known
   std::optional<std::uint64_t> passes;
-  std::uint64_t usual_passes = 64;  ///< where nothing says when it ends
+  std::uint64_t usual_passes = 64;  ///< where nothing says when it ends; 0: it does not
   std::optional<double> seconds;    ///< that the rendering may take
   std::string camera;               ///< name or index, empty: the first
   std::optional<glm::dvec3> camera_position, camera_target, camera_up;  ///< world units
@@ -60,6 +60,13 @@ struct RenderOptions {
   render::Settings settings;  ///< all but width, height, camera
 
   std::uint64_t passes_or_usual() const { return passes.value_or(usual_passes); }
+};
+
+/// `ppm-vk view ...`, likewise.
+struct ViewOptions {
+  ViewOptions() { render.usual_passes = 0; }
+
+  RenderOptions render;  ///< `outputs` are what the picture is written to when that is asked for
 };
 
 /// `ppm-vk bench ...`, likewise.
@@ -127,6 +134,7 @@ struct Options {
   int exit_code =
       0;  ///< for Verb::nothing: help and version were printed (0) or usage is wrong (2)
   RenderOptions render;
+  ViewOptions view;
   CompareOptions compare;
   BenchOptions bench;
   InspectOptions inspect;

@@ -21,42 +21,11 @@ namespace {
 constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, where all are kept at once
 
 void declare_files(Declarer& declare, RenderOptions& options, CLI::App& app) {
-  declare.group("Files");
-  app.add_option_function<std::vector<std::string>>(
-         "-o,--output",
-         [&](const std::vector<std::string>& values) {
-           options.outputs.assign(values.begin(), values.end());
-           for (const std::string& value : values) {
-             if (!image::has_known_extension(value)) {
-               refuse("-o", value, "a file name that ends in .exr, .png, .hdr or .pfm");
-             }
-           }
-         },
-         "picture to write; may be repeated")
-      ->type_name("FILE.exr|.png|.hdr|.pfm")
-      ->group("Files")
-      ->allow_extra_args(false);
-  declare_layers(declare, options);
+  declare_pictures(declare, options, app);
   declare_display(declare, options);
   declare.text("--stats", "FILE.json", "write what was done and how long it took",
                [&](const std::string& value) { options.stats = value; });
-  declare.real(
-      "--exposure", "EV", options.encoding.exposure, "a number from -100 to 100",
-      fmt::format("PNG: radiance is multiplied by 2^EV (default {})", options.encoding.exposure),
-      [](double value) { return std::abs(value) <= 100.0; });
-  declare.text("--tone", "NAME",
-               fmt::format("PNG: tone curve, one of {} (default linear: clipped)",
-                           fmt::join(image::tone_names(), ", ")),
-               [&](const std::string& value) {
-                 const std::optional<image::Tone> tone = image::tone_named(value);
-                 if (!tone) {
-                   refuse("--tone", value,
-                          fmt::format("one of {}", fmt::join(image::tone_names(), ", ")));
-                 }
-                 options.encoding.tone = *tone;
-               });
-  declare.flag("--half", "EXR: 16-bit floats; what is above 65504 is written as 65504",
-               [&] { options.encoding.half = true; });
+  declare_encoding(declare, options);
 }
 
 void declare_radius(Declarer& declare, render::Settings& settings) {
@@ -120,12 +89,54 @@ void declare_integrator(Declarer& declare, render::Settings& settings) {
 
 }  // namespace
 
+void declare_pictures(Declarer& declare, RenderOptions& options, CLI::App& app) {
+  declare.group("Files");
+  app.add_option_function<std::vector<std::string>>(
+         "-o,--output",
+         [&](const std::vector<std::string>& values) {
+           options.outputs.assign(values.begin(), values.end());
+           for (const std::string& value : values) {
+             if (!image::has_known_extension(value)) {
+               refuse("-o", value, "a file name that ends in .exr, .png, .hdr or .pfm");
+             }
+           }
+         },
+         "picture to write; may be repeated")
+      ->type_name("FILE.exr|.png|.hdr|.pfm")
+      ->group("Files")
+      ->allow_extra_args(false);
+  declare_layers(declare, options);
+}
+
+void declare_encoding(Declarer& declare, RenderOptions& options) {
+  declare.real(
+      "--exposure", "EV", options.encoding.exposure, "a number from -100 to 100",
+      fmt::format("PNG: radiance is multiplied by 2^EV (default {})", options.encoding.exposure),
+      [](double value) { return std::abs(value) <= 100.0; });
+  declare.text("--tone", "NAME",
+               fmt::format("PNG: tone curve, one of {} (default linear: clipped)",
+                           fmt::join(image::tone_names(), ", ")),
+               [&](const std::string& value) {
+                 const std::optional<image::Tone> tone = image::tone_named(value);
+                 if (!tone) {
+                   refuse("--tone", value,
+                          fmt::format("one of {}", fmt::join(image::tone_names(), ", ")));
+                 }
+                 options.encoding.tone = *tone;
+               });
+  declare.flag("--half", "EXR: 16-bit floats; what is above 65504 is written as 65504",
+               [&] { options.encoding.half = true; });
+}
+
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes) {
   render::Settings& settings = options.settings;
   constexpr std::uint64_t kMany = std::numeric_limits<std::uint32_t>::max();
   declare.group("Method");
   declare_integrator(declare, settings);
-  declare_passes(declare, options, fmt::format("{} (default {})", passes, options.usual_passes));
+  declare_passes(declare, options,
+                 options.usual_passes > 0
+                     ? fmt::format("{} (default {})", passes, options.usual_passes)
+                     : fmt::format("{} (default any number)", passes));
   declare.whole<std::uint64_t>(
       "--photons", settings.photons_per_pass, 1, kMany,
       fmt::format("photon paths emitted a pass (default {})", settings.photons_per_pass));

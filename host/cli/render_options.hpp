@@ -14,6 +14,8 @@ void check_render(const CLI::App& app, RenderOptions& options);
 /// are.
 void declare_method(Declarer& declare, RenderOptions& options, const char* passes);
 void declare_outputs(Declarer& declare, RenderOptions& options, CLI::App& app);
+void declare_pictures(Declarer& declare, RenderOptions& options, CLI::App& app);
+void declare_encoding(Declarer& declare, RenderOptions& options);
 void declare_passes(Declarer& declare, RenderOptions& options, const std::string& help);
 void declare_time(Declarer& declare, RenderOptions& options);
 void declare_camera(Declarer& declare, RenderOptions& options);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace ppm::test {
 namespace {
@@ -77,6 +78,15 @@ bool Program::wait_for(std::string_view text) {
     if (!read_more()) return false;
   }
   return true;
+}
+
+std::optional<std::string> Program::next_line() {
+  std::size_t end = std::string::npos;
+  while ((end = result_.out.find('\n', lines_taken_)) == std::string::npos) {
+    if (!read_more()) return std::nullopt;
+  }
+  const std::size_t first = std::exchange(lines_taken_, end + 1);
+  return result_.out.substr(first, end - first);
 }
 
 void Program::send(int signal) const {

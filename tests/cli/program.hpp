@@ -30,6 +30,9 @@ class Program {
 
   /// Waits until stderr has `text`; false when the program ends or the limit passes before.
   bool wait_for(std::string_view text);
+  /// The next line of stdout, without its end; nothing when the program ends or the limit passes
+  /// before there is one.
+  std::optional<std::string> next_line();
   void send(int signal) const;
   pid_t id() const { return process_; }
   /// Waits for the end.
@@ -40,6 +43,7 @@ class Program {
 
   pid_t process_ = -1;
   int out_ = -1, err_ = -1;
+  std::size_t lines_taken_ = 0;  // bytes of result_.out
   Result result_;
 };
 
