@@ -146,17 +146,18 @@ TEST_F(CliFiles, ScenesWithDashes) {
 TEST_F(CliFiles, FullDiskTakesNoPartOfAPicture) {
   const SmallDisk disk(folder_ / "disk", "4k");
   if (!disk.is_there()) GTEST_SKIP() << "nothing can be mounted here";
-  write_text(folder_ / "disk/o.hdr", "old");
-  for (const char* name : {"disk/o.hdr", "disk/new.hdr"}) {
-    const Result result = run(render({path("sound.glb"), "-o", path(name), "--quiet"}));
+  write_text(disk.path() / "o.hdr", "old");
+  for (const char* name : {"o.hdr", "new.hdr"}) {
+    const std::string file = disk.path() / name;
+    const Result result = run(render({path("sound.glb"), "-o", file, "--quiet"}));
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_TRUE(result.err.starts_with("ppm-vk: error: " + path(name))) << result.err;
+    EXPECT_TRUE(result.err.starts_with("ppm-vk: error: " + file)) << result.err;
     EXPECT_NE(result.err.find("free some space"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
   }
-  EXPECT_EQ(file_text(folder_ / "disk/o.hdr"), "old");
+  EXPECT_EQ(file_text(disk.path() / "o.hdr"), "old");
   int files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path("disk"))) {
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(disk.path())) {
     ++files;
   }
   EXPECT_EQ(files, 1);

@@ -27,15 +27,11 @@ inline GltfWriter lit_floor(double grey) {
 
 class KeptRendering : public ::testing::Test {
  protected:
-  /// The checkpoint "c" and the picture "o.exr" are in the folder of this name within the test's,
-  /// which need not be there yet; "": in the test's own.
-  explicit KeptRendering(std::string place = "") : place_(std::move(place)) {
-    lit_floor(0.5).write(folder_ / "s.glb");
-  }
+  KeptRendering() { lit_floor(0.5).write(folder_ / "s.glb"); }
 
   std::string path(std::string_view name) const { return (folder_ / name).string(); }
-  std::filesystem::path checkpoint() const { return folder_.path() / place_ / "c"; }
-  std::filesystem::path picture() const { return folder_.path() / place_ / "o.exr"; }
+  std::filesystem::path checkpoint() const { return place_ / "c"; }
+  std::filesystem::path picture() const { return place_ / "o.exr"; }
 
   Words render(const Words& more) const {
     Words words = {"render", path("s.glb"), "--width", "16", "--photons", "2000"};
@@ -69,7 +65,7 @@ class KeptRendering : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::string place_;
+  std::filesystem::path place_ = folder_.path();  ///< of the checkpoint "c" and the picture "o.exr"
 };
 
 }  // namespace ppm::test
