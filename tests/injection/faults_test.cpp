@@ -1,7 +1,9 @@
 // Every Vulkan call of a rendering that can fail does so: the rendering ends with one clear line
 // (or goes on, where a shortage can be got round), its files are whole, its checkpoint leads to the
 // same picture, and nothing is left behind.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -34,7 +36,12 @@ std::unique_ptr<gpu::Device> make_device(bool validation = false) {
 
 class Faults : public ::testing::Test {
  protected:
-  Faults() { layer(); }
+  Faults() {
+    layer();
+#ifdef __SANITIZE_ADDRESS__
+    keep_drivers_loaded();
+#endif
+  }
   void TearDown() override {
     EXPECT_EQ(layer().live(), 0) << "Vulkan objects were left behind";
 #ifdef __SANITIZE_ADDRESS__
@@ -42,17 +49,33 @@ class Faults : public ::testing::Test {
 #endif
   }
 
+  /// LeakSanitizer knows what leaked in drivers and layers only while they are there.
+  [[maybe_unused]] static void keep_drivers_loaded() {
+    const auto device = make_device(true);
+    dl_iterate_phdr(
+        [](dl_phdr_info* library, std::size_t, void*) {
+          if (*library->dlpi_name)
+            dlopen(library->dlpi_name, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+          return 0;
+        },
+        nullptr);
+  }
+
   /// A rendering with this fault on a device that others use, too.
-  void fail(gpu::Device& device, const Fault& fault, bool resume_after) {
+  void fail(gpu::Device& device, Fault fault, bool resume_after) {
     SCOPED_TRACE(::testing::PrintToString(fault));
     const std::int64_t live = layer().live();
     const std::uint64_t allocated = device.allocated_bytes();
     std::optional<std::string> message;
-    {
+    for (bool again = true; again;) {
       CallWatch watch(fault);
       watch.wait_idle = [&] { vkDeviceWaitIdle(device.implementation().handle); };
       message = rig_.render(device);
-      take_in(watch, fault, message);
+      // On a slow machine the work may have been cut otherwise, with fewer calls.
+      const std::uint64_t calls = watch.calls().at(fault.site);
+      again = watch.failed().empty() && calls < fault.number;
+      if (again) fault.number = calls;
+      if (!again) take_in(watch, fault, message);
     }
     EXPECT_EQ(layer().live(), live) << "Vulkan objects were left behind";
     EXPECT_EQ(device.allocated_bytes(), allocated);
@@ -206,8 +229,13 @@ TEST_F(Faults, OfEverySiteOfARenderingAreSurvivedByItsFiles) {
 
 // Each buffer and each submission of a method, by the chain of callers that asks for it.
 TEST_F(Faults, OnThePathsOfEveryMethodAreSurvivedByItsFiles) {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr std::size_t kSome = 40;
+#else
+  constexpr std::size_t kSome = 5;
+#endif
   // All of other methods than ppm take half a minute, and were survived.
-  const std::size_t stride = std::getenv("PPM_TEST_ALL_PATHS") ? 1 : 5;
+  const std::size_t stride = std::getenv("PPM_TEST_ALL_PATHS") ? 1 : kSome;
   const auto device = make_device();
   std::set<Path> seen;
   std::size_t all = 0;

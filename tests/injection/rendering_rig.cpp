@@ -80,7 +80,7 @@ void RenderingRig::run(gpu::Device& device, std::uint64_t passes, bool resumes, 
   }
   outputs.keeping = {folder_ / kCheckpoint, 0.0, {"s.glb"}, {{"scene", 1}}};
   outputs.preview = folder_ / kPreview;
-  outputs.preview_seconds = 0.0;
+  outputs.preview_seconds = 1e9;  // after the first pass and at the end, however long they take
   render::Circumstances circumstances;
   circumstances.program = "ppm-vk test";
   circumstances.scene = "s.glb";
