@@ -59,7 +59,7 @@ TEST_P(LookFrom, BeginsAnewThere) {
   const auto moved = make(settings_);
   begin(*moved, 3);
   moved->resolve();
-  moved->probe(3, 4);
+  moved->probe(12, 9);
   moved->look_from(inside_);
   begin(*moved, kPasses);
 

@@ -150,6 +150,9 @@ TEST(ViewPose, LooksAtWhatTheCameraLooksAt) {
   expect_near(pose.target, {11.0, -19.0, 30.0}, 1e-12);
   EXPECT_EQ(pose.up, glm::dvec3(0.0, 1.0, 0.0));
   EXPECT_DOUBLE_EQ(pose.fov, 45.0);
+  camera.position.x = 0.95;  // some of what is in the middle is past the square
+  expect_near(pose_of(camera, scene, std::nullopt).target, {13.8, -19.0, 30.0}, 1e-12);
+  camera.position.x = 0.25;
   camera.ymag = 0.5;
   pose = pose_of(camera, scene, std::nullopt);
   expect_near(pose.target, {11.0, -19.0, 30.0}, 1e-12);
