@@ -109,6 +109,34 @@ TEST_F(Layers, OfAColouredWallAreItsOwn) {
   }
 }
 
+// As many texels as pixels, each of a colour of its own: no two rows, columns or channels may be
+// mistaken for each other.
+TEST_F(Layers, OfATexturedWallShowItsTexels) {
+  GltfWriter writer = looking_ahead();
+  const auto half = static_cast<float>(4.0 * std::tan(0.2));
+  writer.mesh(wall(-4.0f, half), writer.material(lambert({0.8, 0.5, 1.0})));
+  scene::Scene scene = load(writer);
+  scene::Texture texture;
+  texture.width = texture.height = 16;
+  texture.nearest = true;
+  for (unsigned row = 0; row < 16; ++row) {
+    for (unsigned column = 0; column < 16; ++column) {
+      texture.rgba8.emplace_back(15 * column, 15 * row, (37 * row + 11 * column) % 251, 255);
+    }
+  }
+  scene.textures = {texture};
+  const std::uint32_t painted = scene.triangles.front().material;
+  scene.materials[painted].base_color_texture = scene::TextureUse{};
+  const Result result = make(scene, small_settings(scene), kSurface);
+  for (std::uint32_t y = 0; y < 16; ++y) {
+    for (std::uint32_t x = 0; x < 16; ++x) {
+      const glm::dvec3 texel(texture.rgba8[(15 - y) * 16 + x]);  // the wall's v runs upwards
+      expect_near(result.at(LayerKind::albedo, x, y), glm::dvec3(0.8, 0.5, 1.0) * texel / 255.0,
+                  1e-6);
+    }
+  }
+}
+
 // Nothing there: zero in all layers.
 TEST_F(Layers, OfNothingAreZero) {
   GltfWriter writer = looking_ahead();
