@@ -130,7 +130,6 @@ std::vector<std::string> textures_of(const scene::Material& material) {
       {"specular colour", &material.specular_color_texture},
       {"clear coat", &material.clearcoat_texture},
       {"clear coat roughness", &material.clearcoat_roughness_texture},
-      {"clear coat normal", &material.clearcoat_normal_texture},
   };
   std::vector<std::string> names;
   for (const auto& [name, use] : uses) {

@@ -14,15 +14,10 @@ void add(Hash& hash, const scene::OptionalTextureUse& use) {
 
 void add(Hash& hash, const scene::Material& material) {
   hash.add(&material.base_color, sizeof material.base_color);
-  for (const scene::OptionalTextureUse* use :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
-        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
-        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
+  for (const scene::OptionalTextureUse* use : texture_uses(material)) {
     add(hash, *use);
   }
   hash.add(material.normal_scale);
-  hash.add(material.clearcoat_normal_scale);
   hash.add(static_cast<std::uint32_t>(material.alpha_mode));
   hash.add(material.alpha);
   hash.add(material.alpha_cutoff);

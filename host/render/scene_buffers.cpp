@@ -45,7 +45,6 @@ shared::MaterialRecord material_record(const scene::Material& material) {
   record.normal_scale = material.normal_scale;
   record.clearcoat = material.clearcoat;
   record.clearcoat_roughness = material.clearcoat_roughness;
-  record.clearcoat_normal_scale = material.clearcoat_normal_scale;
   return record;
 }
 

@@ -53,11 +53,7 @@ void add_texture_uses(const scene::Material& material, shared::MaterialRecord& r
                       std::vector<shared::TextureUse>& uses) {
   record.first_use = static_cast<std::uint32_t>(uses.size());
   std::uint32_t which = PPM_USE_BASE_COLOR;
-  for (const scene::OptionalTextureUse* use :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
-        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
-        &material.clearcoat_roughness_texture}) {
+  for (const scene::OptionalTextureUse* use : texture_uses(material)) {
     if (*use) {
       record.use_mask |= which;
       uses.push_back({(*use)->row_s,

@@ -225,18 +225,12 @@ void extend(Box& box, const PosedPrimitive& posed) {
 
 DetailNeeds needs_of(const Material& material) {
   DetailNeeds needs;
-  for (const OptionalTextureUse* use :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emissive_texture, &material.transmission_texture,
-        &material.specular_texture, &material.specular_color_texture, &material.clearcoat_texture,
-        &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture}) {
+  for (const OptionalTextureUse* use : texture_uses(material)) {
     needs.texcoord1 = needs.texcoord1 || (*use && (*use)->texcoord_set == 1);
   }
-  for (const OptionalTextureUse* use :
-       {&material.clearcoat_normal_texture, &material.normal_texture}) {
-    if (!*use) continue;
+  if (const OptionalTextureUse& use = material.normal_texture) {
     needs.tangents = true;
-    needs.tangent_set = (*use)->texcoord_set == 1 ? 1 : 0;
+    needs.tangent_set = use->texcoord_set == 1 ? 1 : 0;
   }
   return needs;
 }

@@ -92,8 +92,7 @@ struct Material {
   OptionalTextureUse specular_color_texture;       ///< RGB, multiplies specular_color
   OptionalTextureUse clearcoat_texture;            ///< R multiplies clearcoat
   OptionalTextureUse clearcoat_roughness_texture;  ///< G multiplies clearcoat_roughness
-  OptionalTextureUse clearcoat_normal_texture;
-  float normal_scale = 1.0f, clearcoat_normal_scale = 1.0f;
+  float normal_scale = 1.0f;
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha = 1.0f;              ///< in [0,1]; coverage where alpha_mode says so
   float alpha_cutoff = 0.5f;       ///< MASK: covered where alpha is not below
@@ -114,6 +113,19 @@ struct Material {
   glm::vec3 emission{0.0f};   ///< emitted radiance, W/(m^2 sr) a channel
   bool double_sided = false;  ///< emits from both sides (every surface scatters on both)
 };
+
+/// Of all kinds, in the order of the kernels' PPM_USE_*.
+inline std::array<const OptionalTextureUse*, 9> texture_uses(const Material& material) {
+  return {&material.base_color_texture,
+          &material.metallic_roughness_texture,
+          &material.normal_texture,
+          &material.emissive_texture,
+          &material.transmission_texture,
+          &material.specular_texture,
+          &material.specular_color_texture,
+          &material.clearcoat_texture,
+          &material.clearcoat_roughness_texture};
+}
 
 enum class PunctualKind { point, spot, directional };
 

@@ -33,7 +33,7 @@ MaterialRecord fetch_material(uint index) {
                         uintBitsToFloat(b.z), uintBitsToFloat(b.w), uintBitsToFloat(c.xyz),
                         uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w, uintBitsToFloat(e.x),
                         uintBitsToFloat(e.y), uintBitsToFloat(e.z), e.w, uintBitsToFloat(f.x),
-                        uintBitsToFloat(f.y), uintBitsToFloat(f.z), f.w);
+                        uintBitsToFloat(f.y), f.z, f.w);
 }
 
 #endif

@@ -83,7 +83,6 @@ struct TextureUse {
 #define PPM_USE_SPECULAR_COLOR 64u
 #define PPM_USE_CLEARCOAT 128u
 #define PPM_USE_CLEARCOAT_ROUGHNESS 256u
-#define PPM_USE_CLEARCOAT_NORMAL 512u
 
 // Flags of a material.
 #define PPM_MATERIAL_DOUBLE_SIDED 1u  // emits from both sides
@@ -108,9 +107,10 @@ struct MaterialRecord {
   float alpha, alpha_cutoff;
   float normal_scale;
   uint use_mask;  // PPM_USE_*
-  float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+  float clearcoat, clearcoat_roughness;
   uint medium;  // 1 + index in MEDIA, 0 where nothing gets inside
-};              // 96
+  uint spare;
+};  // 96
 
 // What fills a solid. Numbered from 1 by rank (shared/media.h).
 #define PPM_MEDIUM_TEXELS 2

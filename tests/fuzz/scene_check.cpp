@@ -69,11 +69,7 @@ void check_triangles(const Scene& scene) {
 }
 
 void check_uses(const Scene& scene, const Material& m, std::size_t i) {
-  for (const OptionalTextureUse* use :
-       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-        &m.emissive_texture, &m.transmission_texture, &m.specular_texture,
-        &m.specular_color_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture,
-        &m.clearcoat_normal_texture}) {
+  for (const OptionalTextureUse* use : texture_uses(m)) {
     if (!*use) continue;
     require((*use)->texture < scene.textures.size(), "textures are there", i);
     require((*use)->texcoord_set <= 1, "sets are 0 or 1", i);
@@ -87,8 +83,7 @@ void check_materials(const Scene& scene) {
     const Material& m = scene.materials[i];
     require(lies_within(m.base_color, 0.0, 1.0), "base colours lie in [0,1]", i);
     check_uses(scene, m, i);
-    require(std::isfinite(m.normal_scale) && std::isfinite(m.clearcoat_normal_scale),
-            "normal scales are finite", i);
+    require(std::isfinite(m.normal_scale), "normal scales are finite", i);
     require(lies_within(m.alpha, 0.0, 1.0), "alpha lies in [0,1]", i);
     require(m.alpha_cutoff >= 0.0f && std::isfinite(m.alpha_cutoff), "cutoffs are positive", i);
     require(lies_within(m.clearcoat, 0.0, 1.0), "clearcoat lies in [0,1]", i);

@@ -19,7 +19,7 @@
   F3(r.base_color) U1(r.first_use) F1(r.metallic) F1(r.roughness) F1(r.transmission) F1(r.ior) \
   F3(r.specular_f0) F1(r.specular) F3(r.emission) U1(r.flags) F1(r.alpha) F1(r.alpha_cutoff) \
   F1(r.normal_scale) U1(r.use_mask) F1(r.clearcoat) F1(r.clearcoat_roughness) \
-  F1(r.clearcoat_normal_scale) U1(r.medium)
+  U1(r.medium) U1(r.spare)
 #define PPM_FIELDS_TRIANGLE_DETAIL(r) \
   F2(r.texcoord0) F2(r.texcoord1) F2(r.texcoord2) U1(r.tangent0) U1(r.tangent1) U1(r.tangent2) \
   U1(r.spare0) U1(r.spare1) U1(r.spare2)

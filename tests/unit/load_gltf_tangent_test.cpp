@@ -196,7 +196,7 @@ TEST(Details, MaterialsNeedWhatTheirTexturesDo) {
   EXPECT_FALSE(needs_of(material).any());
   material.base_color_texture = material.emissive_texture = scene::TextureUse{};
   EXPECT_FALSE(needs_of(material).any());
-  material.clearcoat_normal_texture = scene::TextureUse{};
+  material.normal_texture = scene::TextureUse{};
   EXPECT_TRUE(needs_of(material).tangents);
   EXPECT_FALSE(needs_of(material).texcoord1);
   material.normal_texture = scene::TextureUse{.texcoord_set = 1};
