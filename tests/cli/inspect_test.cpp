@@ -52,14 +52,14 @@ TEST_F(CliInspect, NeedsNoVulkanDevice) {
 TEST_F(CliInspect, JsonHasItsSchema) {
   const Result result = run({"inspect", scene(), "--json", "--width", "64"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
+  const auto report = nlohmann::json::parse(result.out);
   for (const char* key : {"file", "file_bytes", "bounds", "triangles", "left_out", "cameras",
                           "lights", "materials", "textures", "extensions", "warnings", "memory"}) {
-    EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_TRUE(report.contains(key)) << key;
   }
-  EXPECT_EQ(json["memory"]["width"], 64);
-  EXPECT_EQ(json["memory"]["height"], 32);
-  EXPECT_GT(json["file_bytes"], 0);
+  EXPECT_EQ(report["memory"]["width"], 64);
+  EXPECT_EQ(report["memory"]["height"], 32);
+  EXPECT_GT(report["file_bytes"], 0);
 }
 
 TEST_F(CliInspect, UsageAndBrokenFilesAreRefused) {
