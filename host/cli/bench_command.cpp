@@ -28,9 +28,7 @@ namespace {
 std::function<render::Settings(const scene::Scene&, Log&)> settings_from(
     const RenderOptions& render) {
   return [&render, limits = memory_limits_for(render)](const scene::Scene& scene, Log& log) {
-    const render::Settings settings = settings_for(render, scene, log);
-    check_memory_for(scene, settings, limits, nullptr);
-    return settings;
+    return fitting_settings(scene, settings_for(render, scene, log), render, limits, nullptr, log);
   };
 }
 

@@ -154,7 +154,8 @@ int compare_command(const CompareOptions& options) {
                            },
                        .admit =
                            [&](const render::Settings& settings) {
-                             check_memory_for(scene, settings, limits, &device);
+                             return fitting_settings(scene, settings, options.render, limits,
+                                                     &device, log);
                            },
                        .warm = {}};
   const compare::Outcome outcome =

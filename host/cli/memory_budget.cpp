@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "failure.hpp"
 
@@ -17,7 +18,7 @@ std::string remedy_for(const render::MemoryPlan& plan) {
   const std::string largest = render::largest_part(plan).name;
   if (largest.starts_with("textures")) return "scale textures down";
   if (largest.find("environment") != std::string::npos) return "scale the environment down";
-  if (largest.starts_with("hit points") || largest == "picture") {
+  if (largest.find("hit points") != std::string::npos || largest == "picture") {
     return "make the picture smaller or lower --spp";
   }
   if (largest == "checkpoint") return "make the picture smaller or do without --checkpoint";
@@ -29,13 +30,25 @@ std::string remedy_for(const render::MemoryPlan& plan) {
   return "simplify meshes or use fewer instances";
 }
 
-[[noreturn]] void refuse(const std::string& file, const render::MemoryPlan& plan, const char* place,
-                         std::uint64_t bytes, const std::string& limit, const char* other_remedy) {
-  throw Failure(
-      file, place,
-      fmt::format("a rendering takes {}{} ({}), but {}", plan.is_complete ? "" : "at least ",
-                  render::size_text(bytes), render::describe_peak(plan), limit),
-      remedy_for(plan) + other_remedy);
+/// "A, B or C".
+std::string alternatives(const std::vector<std::string>& ways) {
+  std::string text = ways.front();
+  for (std::size_t i = 1; i < ways.size(); ++i) {
+    text += (i + 1 < ways.size() ? ", " : " or ") + ways[i];
+  }
+  return text;
+}
+
+/// Of a picture that is known; nothing where no other one would fit.
+std::string computed_remedy(const render::MemoryDemand& demand, const render::Settings& settings,
+                            const MemoryLimits& limits) {
+  std::vector<std::string> ways = render::what_would_fit(demand, settings, limits);
+  if (ways.empty()) return "";
+  if (limits.budget) {
+    ways.push_back(
+        fmt::format("--memory-budget {}M", render::least_budget(demand, settings) >> 20));
+  }
+  return alternatives(ways) + " would do";
 }
 
 }  // namespace
@@ -58,25 +71,38 @@ std::optional<std::uint64_t> parse_size(std::string_view text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
-void check_memory(const std::string& file, const render::MemoryPlan& plan,
-                  const MemoryLimits& limits) {
+render::MemoryFit fit_or_refuse(const std::string& file, const render::MemoryDemand& demand,
+                                const render::Settings& settings, const MemoryLimits& limits,
+                                Known known) {
+  render::MemoryFit fit = render::fit_memory(demand, settings, limits);
+  if (fit.fits) return fit;
+  const render::MemoryPlan& plan = fit.plan;
+  const auto refuse = [&](const char* place, std::uint64_t bytes, const std::string& limit,
+                          const char* other_remedy) {
+    std::string remedy =
+        known == Known::all ? computed_remedy(demand, settings, limits) : std::string();
+    if (remedy.empty()) remedy = remedy_for(plan) + other_remedy;
+    throw Failure(
+        file, place,
+        fmt::format("a rendering takes {}{} ({}), but {}", known == Known::all ? "" : "at least ",
+                    render::size_text(bytes), render::describe_peak(plan), limit),
+        remedy);
+  };
   if (limits.budget) {
-    if (plan.peak() <= *limits.budget) return;
-    refuse(file, plan, "--memory-budget", plan.peak(),
+    refuse("--memory-budget", plan.peak(),
            fmt::format("may take {}", render::size_text(*limits.budget)),
            ", or raise --memory-budget");
   }
   const std::uint64_t on_host = limits.device ? plan.host_peak() : plan.peak();
   if (on_host > limits.machine) {
-    refuse(file, plan, "memory", on_host,
+    refuse("memory", on_host,
            fmt::format("the machine has {} left", render::size_text(limits.machine)),
            ", or go ahead with a --memory-budget");
   }
-  if (limits.device && plan.device_peak() > *limits.device) {
-    refuse(file, plan, "device memory", plan.device_peak(),
-           fmt::format("the device has {} left", render::size_text(*limits.device)),
-           ", or choose another --device");
-  }
+  refuse("device memory", plan.device_peak(),
+         fmt::format("the device has {} left", render::size_text(*limits.device)),
+         ", or choose another --device");
+  return fit;
 }
 
 }  // namespace ppm::cli

@@ -6,24 +6,22 @@
 #include <string>
 #include <string_view>
 
-#include "memory_plan.hpp"
+#include "memory_fit.hpp"
 
 namespace ppm::cli {
 
 /// "4G", "512M", "1.5g", "65536K", or bytes: powers of 1024, above 0.
 std::optional<std::uint64_t> parse_size(std::string_view text);
 
-/// What a rendering may take.
-struct MemoryLimits {
-  std::optional<std::uint64_t> budget;  ///< --memory-budget: in all, instead of the others
-  std::uint64_t machine = 0;            ///< what the machine has left
-  /// Of a device with memory of its own; nothing: it shares the machine's, or is not known yet.
-  std::optional<std::uint64_t> device;
-};
+using render::MemoryLimits;
 
-/// Throws Failure, which names what takes how much and what would mend it, where the plan's peak is
-/// beyond the limits.
-void check_memory(const std::string& file, const render::MemoryPlan& plan,
-                  const MemoryLimits& limits);
+/// Whether the scene has been read; before that its picture may not be known either.
+enum class Known { a_part, all };
+
+/// Settings with which the rendering fits the limits (render::fit_memory). Throws Failure, which
+/// names what takes how much and what would fit, where there are none.
+render::MemoryFit fit_or_refuse(const std::string& file, const render::MemoryDemand& demand,
+                                const render::Settings& settings, const MemoryLimits& limits,
+                                Known known);
 
 }  // namespace ppm::cli

@@ -14,6 +14,7 @@
 #include "failure.hpp"
 #include "fingerprint.hpp"
 #include "load_gltf.hpp"
+#include "memory_shortage.hpp"
 #include "scene_settings.hpp"
 
 namespace ppm::cli {
@@ -60,6 +61,30 @@ std::vector<render::PartHash> parts_of(const scene::Scene& scene,
   return parts;
 }
 
+constexpr unsigned kMostTries = 5;
+
+/// Others may have taken what the device had left: then with less and less of it. Changes the
+/// settings accordingly.
+std::unique_ptr<render::Integrator> make_integrator_that_fits(render::Settings& settings,
+                                                              const scene::Scene& scene,
+                                                              const RenderOptions& options,
+                                                              MemoryLimits limits,
+                                                              gpu::Device& device, Log& log) {
+  const unsigned threads = thread_count(options.threads);
+  for (unsigned tries = 1;; ++tries) {
+    try {
+      return render::make_integrator(settings, scene, device, log, threads);
+    } catch (const gpu::MemoryShortage& shortage) {
+      if (tries == kMostTries) throw;
+      const std::optional<render::Settings> less =
+          settings_with_less(scene, settings, options, limits, device);
+      if (!less) throw;
+      settings = *less;
+      log.warn(std::string(shortage.what()) + "; the rendering goes on with less at a time");
+    }
+  }
+}
+
 int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
   const Clock::time_point start = Clock::now();
   const render::Interruption interruption;
@@ -74,7 +99,7 @@ int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
     log.warn("interrupted while the scene was read; nothing is written");
     return kInterrupted;
   }
-  const render::Settings settings = settings_for(options, scene, log);
+  render::Settings settings = settings_for(options, scene, log);
   log.note(fmt::format("{}: {} triangles, {} materials, {:.2f} s", scene.file,
                        scene.triangles.size(), scene.materials.size(), load_seconds));
   if (!outputs.keeping.file.empty()) outputs.keeping.parts = parts_of(scene, settings);
@@ -89,9 +114,9 @@ int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
     render::check_device(outputs.keeping.file, *resumed, device.description().name,
                          device.description().driver);
   }
-  check_memory_for(scene, settings, limits, &device, options.layers);
+  settings = fitting_settings(scene, settings, options, limits, &device, log);
   const std::unique_ptr<render::Integrator> integrator =
-      render::make_integrator(settings, scene, device, log, thread_count(options.threads));
+      make_integrator_that_fits(settings, scene, options, limits, device, log);
   scene::release_arrays(scene);
 
   render::Circumstances circumstances = circumstances_for(scene, options.load, device);

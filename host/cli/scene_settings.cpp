@@ -9,6 +9,7 @@
 #include "camera_choice.hpp"
 #include "failure.hpp"
 #include "machine_memory.hpp"
+#include "scene_traits.hpp"
 
 namespace ppm::cli {
 namespace {
@@ -27,11 +28,14 @@ void check_radius(const render::Settings& settings, const scene::Scene& scene) {
                   kSmallestRadius / scene.frame.scale, kLargestRadius / scene.frame.scale));
 }
 
-void add_layers(render::MemoryPlan& plan, const render::Settings& settings,
-                std::span<const render::LayerKind> layers) {
-  for (render::MemoryPart& part : render::layers_memory(settings, layers)) {
-    plan.parts.push_back(std::move(part));
-  }
+/// Of the device, of the scene if it is there, and of what is to be written.
+render::MemoryDemand demand_of(const RenderOptions& options, const scene::SceneSize& size,
+                               const scene::Scene* scene, const gpu::Device* device) {
+  render::MemoryDemand demand{
+      size, device ? render::PassLimits::of(*device) : render::PassLimits::of_cpu(), options.layers,
+      !options.run.checkpoint.empty()};
+  if (scene) demand.limits.layered_hits = render::traits_of(*scene).layers;
+  return demand;
 }
 
 }  // namespace
@@ -60,26 +64,44 @@ scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLi
       settings.width = options.width.value_or(1);
       settings.height = options.height.value_or(1);
     }
-    render::MemoryPlan plan = render::memory_plan(size, settings, render::PassLimits::of_cpu());
-    add_layers(plan, settings, options.layers);
-    plan.is_complete = scene != nullptr;
-    if (!options.run.checkpoint.empty()) {
-      plan.parts.push_back(render::checkpoint_memory(settings, render::PassLimits::of_cpu()));
-    }
-    check_memory(options.scene.string(), plan, limits);
+    fit_or_refuse(options.scene.string(), demand_of(options, size, scene, nullptr), settings,
+                  limits, scene != nullptr ? Known::all : Known::a_part);
   };
   return load;
 }
 
-void check_memory_for(const scene::Scene& scene, const render::Settings& settings,
-                      MemoryLimits limits, const gpu::Device* device,
-                      std::span<const render::LayerKind> layers) {
+render::Settings fitting_settings(const scene::Scene& scene, const render::Settings& settings,
+                                  const RenderOptions& options, MemoryLimits limits,
+                                  const gpu::Device* device, const Log& log) {
   if (device && !device->shares_host_memory()) limits.device = device->free_bytes();
-  const render::PassLimits passes =
-      device ? render::PassLimits::of(*device) : render::PassLimits::of_cpu();
-  render::MemoryPlan plan = render::memory_plan(scene::SceneSize::of(scene), settings, passes);
-  add_layers(plan, settings, layers);
-  check_memory(scene.file, plan, limits);
+  const render::MemoryDemand demand =
+      demand_of(options, scene::SceneSize::of(scene), &scene, device);
+  const render::MemoryFit fit = fit_or_refuse(scene.file, demand, settings, limits, Known::all);
+  const std::string change = render::describe_change(demand, settings, fit.settings);
+  if (!change.empty()) {
+    const std::uint64_t most = limits.budget   ? *limits.budget
+                               : limits.device ? std::min(*limits.device, limits.machine)
+                                               : limits.machine;
+    log.tell(fmt::format("{}, so that it fits {}", change, render::size_text(most)));
+  }
+  log.note(fmt::format("memory: up to {}, of which {} on the device ({})",
+                       render::size_text(fit.plan.peak()),
+                       render::size_text(fit.plan.device_peak()), render::describe_peak(fit.plan)));
+  return fit.settings;
+}
+
+std::optional<render::Settings> settings_with_less(const scene::Scene& scene,
+                                                   const render::Settings& settings,
+                                                   const RenderOptions& options,
+                                                   MemoryLimits limits, const gpu::Device& device) {
+  const render::MemoryDemand demand =
+      demand_of(options, scene::SceneSize::of(scene), &scene, &device);
+  limits.machine = limits.budget.value_or(limits.machine);
+  limits.budget.reset();
+  limits.device = demand.plan(settings).device_peak() / 4 * 3;
+  render::MemoryFit fit = render::fit_memory(demand, settings, limits);
+  if (!fit.fits) return std::nullopt;
+  return fit.settings;
 }
 
 unsigned thread_count(unsigned asked_for) {

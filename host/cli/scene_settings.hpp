@@ -18,11 +18,19 @@ MemoryLimits memory_limits_for(const RenderOptions& options);
 /// What of the file is read, and no more than the limits allow.
 scene::LoadOptions load_options_for(const RenderOptions& options, const MemoryLimits& limits);
 
-/// Throws Failure where the scene, of which all is known now, does not fit the limits with these
-/// settings and layers, on this device if there is one.
-void check_memory_for(const scene::Scene& scene, const render::Settings& settings,
-                      MemoryLimits limits, const gpu::Device* device,
-                      std::span<const render::LayerKind> layers = {});
+/// The settings with which the scene, of which all is known now, fits the limits and this device,
+/// if there is one; tells what had to change. Throws Failure where there are none. Layers and the
+/// checkpoint are the options'.
+render::Settings fitting_settings(const scene::Scene& scene, const render::Settings& settings,
+                                  const RenderOptions& options, MemoryLimits limits,
+                                  const gpu::Device* device, const Log& log);
+
+/// The same with three quarters of what these settings take on the device; nothing where that
+/// cannot be.
+std::optional<render::Settings> settings_with_less(const scene::Scene& scene,
+                                                   const render::Settings& settings,
+                                                   const RenderOptions& options,
+                                                   MemoryLimits limits, const gpu::Device& device);
 
 /// As asked for, or one for each core.
 unsigned thread_count(unsigned asked_for);

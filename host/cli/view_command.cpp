@@ -38,10 +38,10 @@ int view_command(const ViewOptions& view_options) {
   const MemoryLimits limits = memory_limits_for(options);
   scene::Scene scene = scene::load_gltf(options.scene, log, load_options_for(options, limits));
   if (interruption.requested()) return kInterrupted;
-  const render::Settings settings = settings_for(options, scene, log);
+  render::Settings settings = settings_for(options, scene, log);
   const view::Pose pose = view::pose_of(settings.camera, scene, options.camera_target);
   gpu::Device device(options.device);
-  check_memory_for(scene, settings, limits, &device, options.layers);
+  settings = fitting_settings(scene, settings, options, limits, &device, log);
   const std::unique_ptr<render::Integrator> integrator =
       render::make_integrator(settings, scene, device, log, thread_count(options.threads));
   scene::release_arrays(scene);

@@ -44,13 +44,13 @@ std::optional<RunRecord> rendering(
   wanted.budget_seconds = schedule.seconds;
   if (auto record = folder.find(name, wanted)) return record;
   if (stage.interrupted()) return std::nullopt;
-  stage.admit(method.settings);
+  const Method fitting{method.label, stage.admit(method.settings)};
   stage.tell(schedule.seconds > 0.0
                  ? fmt::format("{}: {}", name, render::clock_time(schedule.seconds))
                  : fmt::format("{}: {} passes", name, schedule.last_pass.value_or(0)));
-  warm_up(stage, method);
+  warm_up(stage, fitting);
   return folder.add(name, [&](const std::filesystem::path& part) -> std::optional<RunRecord> {
-    auto record = timed_run(stage, method, seed, schedule, part);
+    auto record = timed_run(stage, fitting, seed, schedule, part);
     if (record && finish) finish(part);
     return record;
   });

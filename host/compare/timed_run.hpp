@@ -23,7 +23,7 @@ struct Stage {
   std::function<bool()> interrupted;
   std::function<void(const std::string&)> tell;  ///< a line of progress
   /// Throws Failure where a rendering with these settings would not fit the machine.
-  std::function<void(const render::Settings&)> admit;
+  std::function<render::Settings(const render::Settings&)> admit;
   std::set<std::string> warm;  ///< methods whose pipelines are there
 };
 

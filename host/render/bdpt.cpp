@@ -41,7 +41,7 @@ BdptIntegrator::BdptIntegrator(const Settings& settings, const scene::Scene& sce
       device_(device),
       buffers_(scene, settings, device, threads),
       traits_(traits_with_segments(scene, buffers_)),
-      film_(device, buffers_.constants()),
+      film_(device, buffers_.constants(), settings.keeps_film),
       table_(table_of(buffers_, film_)),
       sampler_(device, table_, traits_, settings, ways_of(settings, scene)),
       tile_paths_(sampler_.path_capacity()) {
@@ -74,12 +74,14 @@ std::uint64_t BdptIntegrator::advance_up_to(std::uint64_t passes,
       std::clamp<std::uint64_t>(sampler_.path_capacity() / pixels, 1, passes);
   const auto all = static_cast<std::uint32_t>(made * pixels);
   const Statistics before = statistics_;
+  bool can_go_back = true;
+  const auto stop = [&] { return can_go_back && interrupted(); };
   for (std::uint32_t first = 0; first < all;) {
     const std::uint32_t paths = std::min(tile_paths_, all - first);
     const BidirectionalSampler::Result result =
         sampler_.trace({static_cast<std::uint32_t>(statistics_.passes), first, paths, 0,
                         static_cast<std::uint32_t>(made)},
-                       interrupted);
+                       stop);
     if (result == BidirectionalSampler::Result::overflow) {
       if (paths == 1) {
         throw Failure("", "--max-depth", "the sub-paths of one sample do not fit", "limit it");
@@ -92,7 +94,7 @@ std::uint64_t BdptIntegrator::advance_up_to(std::uint64_t passes,
       statistics_ = before;
       return 0;
     }
-    if (first == 0 && paths < all) film_.keep();
+    if (first == 0 && paths < all) can_go_back = film_.keep();
     sampler_.deposit();
     record(sampler_.counters());
     first += paths;

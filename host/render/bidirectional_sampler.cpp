@@ -63,7 +63,7 @@ std::vector<MemoryPart> bdpt_memory(const Settings& settings, const PassLimits& 
   const SamplerCapacities sampler = sampler_capacities(settings, limits.storage_bytes, 0);
   const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
   return {{"sub-paths", sampler.bytes(false), true, Phase::upload, Phase::render},
-          {"film", Film::bytes(pixels), true, Phase::upload, Phase::render}};
+          film_memory(pixels, settings.keeps_film)};
 }
 
 BidirectionalSampler::BidirectionalSampler(gpu::Device& device, const gpu::BindingTable& scene,

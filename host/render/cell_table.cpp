@@ -50,4 +50,9 @@ std::uint64_t max_entries(std::uint32_t hashed_entries) {
   return std::max<std::uint64_t>(kDenseEntries, std::uint64_t{hashed_entries} + kMaxAxis);
 }
 
+std::uint64_t table_bytes(std::uint64_t entries) {
+  const std::uint64_t chunks = entries / PPM_SCAN_CHUNK + 2;
+  return sizeof(std::uint32_t) * (2 * entries + 2 + 2 * chunks);
+}
+
 }  // namespace ppm::render

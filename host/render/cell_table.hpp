@@ -23,4 +23,7 @@ std::uint32_t hashed_entries_for(std::uint64_t items);
 /// Entries of the largest table that cell_table makes with up to `hashed_entries`.
 std::uint64_t max_entries(std::uint32_t hashed_entries);
 
+/// What such a table takes on the device: counts, starts, and what scanning them takes.
+std::uint64_t table_bytes(std::uint64_t entries);
+
 }  // namespace ppm::render

@@ -131,11 +131,17 @@ void Estimator::clear_sums(std::span<const HitTile> tiles) {
   });
 }
 
+void Estimator::reserve_pixels(std::uint64_t pixels) {
+  if (pixels_ && pixels_.bytes() >= pixels * sizeof(glm::vec4)) return;
+  pixels_ = {};
+  pixels_ = gpu::Buffer(device_, "pixels", pixels * sizeof(glm::vec4), gpu::Usage::storage);
+}
+
 std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t samples, float scale) {
   const gpu::Region region(device_, "resolve");
-  gpu::Buffer pixels(device_, "pixels", tile.pixels * sizeof(glm::vec4), gpu::Usage::storage);
+  reserve_pixels(tile.pixels);
   gpu::BindingTable table = table_for(tile);
-  table.set(PPM_BIND_PIXELS, pixels);
+  table.set(PPM_BIND_PIXELS, pixels_);
   device_.run([&](gpu::Recorder& recorder) {
     std::uint32_t skip = 0;
     do {
@@ -144,24 +150,20 @@ std::vector<glm::vec4> Estimator::resolve(const HitTile& tile, std::uint32_t sam
       skip += PPM_RESOLVE_SLICE;
     } while (skip < tile.max_pixel_hits);
   });
-  return pixels.download<glm::vec4>(tile.pixels);
+  return pixels_.download<glm::vec4>(tile.pixels);
 }
 
-Picture Estimator::picture(std::span<const HitTile> tiles, const Settings& settings, float scale) {
-  Picture picture{settings.width, settings.height,
-                  std::vector<float>(3ull * settings.width * settings.height, 0.0f)};
-  for (const HitTile& tile : tiles) {
-    const std::vector<glm::vec4> pixels = resolve(tile, settings.samples_per_pixel, scale);
-    for (std::uint32_t i = 0; i < tile.pixels; ++i) {
-      const glm::uvec2 at =
-          shared::pixel_position(tile.first_pixel + i, settings.width, settings.height);
-      float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings.width + at.x)];
-      rgb[0] = pixels[i].x;
-      rgb[1] = pixels[i].y;
-      rgb[2] = pixels[i].z;
-    }
+void Estimator::paint(const HitTile& tile, const Settings& settings, float scale,
+                      Picture& picture) {
+  const std::vector<glm::vec4> pixels = resolve(tile, settings.samples_per_pixel, scale);
+  for (std::uint32_t i = 0; i < tile.pixels; ++i) {
+    const glm::uvec2 at =
+        shared::pixel_position(tile.first_pixel + i, settings.width, settings.height);
+    float* rgb = &picture.rgb[3ull * (std::uint64_t{at.y} * settings.width + at.x)];
+    rgb[0] = pixels[i].x;
+    rgb[1] = pixels[i].y;
+    rgb[2] = pixels[i].z;
   }
-  return picture;
 }
 
 void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footprints) {
@@ -176,17 +178,32 @@ void Estimator::measure_radii(std::span<const HitTile> tiles) {
   update(tiles, 0.5f);
 }
 
+void Estimator::add_radius(float radius2) {
+  if (radius2 > 0.0f) ++radius_histogram_[shared::radius_bin(radius2)];  // else light seen
+}
+
+void Estimator::add_radii(const HitTile& tile, std::vector<float>& radii2) {
+  for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
+    if (statistic.w > 0.0f) radii2.push_back(statistic.w);
+    add_radius(statistic.w);
+  }
+}
+
+void Estimator::update_and_add_radii(const HitTile& tile, float alpha) {
+  const auto others = radius_histogram_;
+  update(std::span(&tile, 1), alpha);
+  for (std::size_t bin = 0; bin < others.size(); ++bin) radius_histogram_[bin] += others[bin];
+}
+
+void Estimator::order_searches(HitTile& tile, float cell) {
+  order_.sort(tile, kOrderCell * cell);
+}
+
 std::vector<float> Estimator::prepare_searches(std::span<HitTile> tiles) {
   std::vector<float> radii2;
-  radius_histogram_.fill(0);
-  for (const HitTile& tile : tiles) {
-    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
-      if (statistic.w <= 0.0f) continue;  // light seen
-      radii2.push_back(statistic.w);
-      ++radius_histogram_[shared::radius_bin(statistic.w)];
-    }
-  }
-  for (HitTile& tile : tiles) order_.sort(tile, kOrderCell * cell_size());
+  clear_radii();
+  for (const HitTile& tile : tiles) add_radii(tile, radii2);
+  for (HitTile& tile : tiles) order_searches(tile, cell_size());
   return radii2;
 }
 

@@ -52,9 +52,11 @@ class Estimator {
   /// Radiance of the tile's pixels, in their order, 4 floats each [HOJ08 Eq. 13].
   /// scale: total power / photons emitted.
   std::vector<glm::vec4> resolve(const HitTile& tile, std::uint32_t samples, float scale);
+  /// Memory for that, beforehand.
+  void reserve_pixels(std::uint64_t pixels);
 
-  /// The picture that the tiles make. scale: idem.
-  Picture picture(std::span<const HitTile> tiles, const Settings& settings, float scale);
+  /// Puts the tile's pixels into the picture. scale: idem.
+  void paint(const HitTile& tile, const Settings& settings, float scale, Picture& picture);
 
   /// Cell size that suits the radii as of the last update (or of `set_radii`), working units; 0
   /// without hit points.
@@ -67,6 +69,15 @@ class Estimator {
   /// Once radii are known and before the first `gather`: reads their histogram, and puts the tiles'
   /// hit points in search order. Returns R^2 of all of them, working units, in any order.
   std::vector<float> prepare_searches(std::span<HitTile> tiles);
+
+  /// The same for tiles that are not all there at a time: the histogram is cleared, then that of
+  /// each tile is added, by itself (R^2 of its hit points are appended) or after its update.
+  void clear_radii() { radius_histogram_.fill(0); }
+  void add_radius(float radius2);
+  void add_radii(const HitTile& tile, std::vector<float>& radii2);
+  void update_and_add_radii(const HitTile& tile, float alpha);
+  /// Puts the tile's hit points in search order, in cells that suit photon cells of that size.
+  void order_searches(HitTile& tile, float cell);
   /// Reads the histogram of radii without changing anything else.
   void measure_radii(std::span<const HitTile> tiles);
 
@@ -78,7 +89,7 @@ class Estimator {
   gpu::BindingTable scene_;
   SearchOrder order_;
   gpu::Kernel gather_, gather_slices_, update_, resolve_, radius_;
-  gpu::Buffer cursors_[2], histogram_buffer_;
+  gpu::Buffer cursors_[2], histogram_buffer_, pixels_;
   std::uint64_t cursor_capacity_;
   std::uint32_t usual_slices_ = 0;  // dispatches after the first: of the last tile, or one less
                                     // than of an earlier one

@@ -29,6 +29,14 @@ constexpr std::uint32_t kGenerate = 0, kSurfaces = 1;  // specialisation constan
 constexpr double kSpareRoom = 2.0;
 constexpr std::uint64_t kMostSpareRoom = 3;
 
+/// Gives `buffer` room for so many bytes, and other contents where it had too little.
+void reserve_bytes(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::uint64_t bytes,
+                   gpu::Usage usage) {
+  if (buffer && buffer.bytes() >= bytes) return;
+  buffer = {};
+  buffer = gpu::Buffer(device, name, bytes, usage);
+}
+
 std::uint64_t queue_capacity(const Settings& settings, std::uint64_t hits) {
   const std::uint64_t paths =
       std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
@@ -37,9 +45,34 @@ std::uint64_t queue_capacity(const Settings& settings, std::uint64_t hits) {
 
 }  // namespace
 
-std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device) {
-  return std::min<std::uint64_t>(settings.tile_hits,
-                                 device.max_storage_bytes() / sizeof(shared::HitPoint));
+std::uint64_t tile_capacity(const Settings& settings, std::uint64_t storage_bytes) {
+  return std::min<std::uint64_t>(settings.tile_hits, storage_bytes / sizeof(shared::HitPoint));
+}
+
+std::uint64_t tile_records(const Settings& settings, std::uint64_t storage_bytes) {
+  const EyeRoom room = EyeRoom::of(settings, storage_bytes);
+  return room.records_for(room.hits_a_pixel, std::uint64_t{settings.width} * settings.height);
+}
+
+EyeRoom EyeRoom::of(const Settings& settings, std::uint64_t storage_bytes) {
+  const std::uint64_t capacity = tile_capacity(settings, storage_bytes);
+  return {capacity, queue_capacity(settings, capacity), settings.samples_per_pixel,
+          kHitsPerPath * settings.samples_per_pixel};
+}
+
+std::uint32_t EyeRoom::pixels_for(double hits_expected) const {
+  const double pixels = std::min(0.95 * static_cast<double>(capacity) / hits_expected,
+                                 static_cast<double>(queue / samples));
+  return static_cast<std::uint32_t>(std::max(1.0, pixels));
+}
+
+std::uint64_t EyeRoom::records_for(double hits_expected, std::uint64_t pixels) const {
+  const double expected = kSpareRoom * hits_expected * static_cast<double>(pixels);
+  return std::min(capacity, static_cast<std::uint64_t>(expected) + 1);
+}
+
+std::uint64_t EyeRoom::tightened(std::uint64_t room, std::uint64_t hits) {
+  return room > kMostSpareRoom * hits ? hits : std::max(room, hits);
 }
 
 EyeKernels::EyeKernels(gpu::Device& device, const SceneTraits& traits, Find find)
@@ -57,9 +90,10 @@ EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::Bind
       kernels_(kernels),
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
-      capacity_(tile_capacity(settings, device)),
-      queue_capacity_(queue_capacity(settings, capacity_)),
-      hits_per_pixel_(kHitsPerPath * samples_),
+      room_(EyeRoom::of(settings, device.max_storage_bytes())),
+      capacity_(room_.capacity),
+      queue_capacity_(room_.queue),
+      hits_per_pixel_(room_.hits_a_pixel),
       table_(scene),
       scan_(device, queue_capacity_),
       queue_{
@@ -76,19 +110,12 @@ EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::Bind
   counters_.bind(table_);
 }
 
-std::uint32_t EyePass::suggested_pixels() const {
-  const double pixels = std::min(0.95 * static_cast<double>(capacity_) / hits_per_pixel_,
-                                 static_cast<double>(queue_capacity_ / samples_));
-  return static_cast<std::uint32_t>(std::max(1.0, pixels));
-}
-
 EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
                                const std::function<bool()>& interrupted, HitTile& tile) {
   if (std::uint64_t{pixels} * samples_ > queue_capacity_) return Result::too_large;
   tile.first_pixel = first_pixel;
   tile.pixels = pixels;
-  const double expected = kSpareRoom * hits_per_pixel_ * pixels;
-  std::uint64_t room = std::min(capacity_, static_cast<std::uint64_t>(expected) + 1);
+  std::uint64_t room = room_.records_for(hits_per_pixel_, pixels);
   for (;;) {
     reserve(tile, room);
     const Result result = trace_paths(tile, room, interrupted);
@@ -99,17 +126,17 @@ EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
     room = tile.hits;  // now it is known how many there are
   }
   order_hits(tile);
-  if (room > kMostSpareRoom * tile.hits) tighten(tile);
   return Result::done;
 }
 
 void EyePass::reserve(HitTile& tile, std::uint64_t hits) {
-  const auto plane = [&](const char* name, bool needed = true) {
-    return gpu::Buffer(device_, name, needed ? hits * 16 : 16, gpu::Usage::storage_and_texels);
+  const auto plane = [&](gpu::Buffer& buffer, const char* name, bool needed = true) {
+    reserve_bytes(device_, buffer, name, needed ? hits * 16 : 16, gpu::Usage::storage_and_texels);
   };
-  tile.planes = {plane("hit points 0"), plane("hit points 1"), plane("hit points 2"),
-                 plane("hit points 3"), plane("hit points 4", kernels_.layers)};
-  tile.statistics = plane("statistics");
+  constexpr const char* kNames[] = {"hit points 0", "hit points 1", "hit points 2", "hit points 3"};
+  for (std::size_t i = 0; i < 4; ++i) plane(tile.planes[i], kNames[i]);
+  plane(tile.planes[4], "hit points 4", kernels_.layers);
+  plane(tile.statistics, "statistics");
   if (!keys_ || keys_.bytes() < hits * sizeof(shared::HitKey)) {
     keys_ = {};
     keys_ =
@@ -158,12 +185,13 @@ EyePass::Result EyePass::trace_paths(const HitTile& tile, std::uint64_t room,
 
 void EyePass::order_hits(HitTile& tile) {
   const std::uint32_t groups = tile.pixels * samples_;
-  tile.sample_start =
-      gpu::Buffer(device_, "hit points of samples", (groups + 1ull) * 4, gpu::Usage::storage);
-  tile.order = gpu::Buffer(device_, "hit point order", tile.hits * 4ull, gpu::Usage::storage);
-  tile.photon_counts = gpu::Buffer(device_, "photon counts", tile.hits * 4ull, gpu::Usage::storage);
-  tile.sums = gpu::Buffer(device_, "gather sums", tile.hits * sizeof(shared::GatherSum),
-                          gpu::Usage::storage);
+  const auto reserve = [&](gpu::Buffer& buffer, const char* name, std::uint64_t bytes) {
+    reserve_bytes(device_, buffer, name, bytes, gpu::Usage::storage);
+  };
+  reserve(tile.sample_start, "hit points of samples", (groups + 1ull) * 4);
+  reserve(tile.order, "hit point order", tile.hits * 4ull);
+  reserve(tile.photon_counts, "photon counts", tile.hits * 4ull);
+  reserve(tile.sums, "gather sums", tile.hits * sizeof(shared::GatherSum));
   gpu::BindingTable table = table_;
   tile.bind(table);
   table.set(PPM_BIND_HIT_KEYS, keys_);
@@ -183,6 +211,8 @@ void EyePass::order_hits(HitTile& tile) {
 }
 
 void EyePass::tighten(HitTile& tile) {
+  const std::uint64_t room = tile.statistics.bytes() / 16;
+  if (EyeRoom::tightened(room, tile.hits) == room) return;
   const auto copy_of = [&](gpu::Buffer& loose) {
     gpu::Buffer tight(device_, loose.name(), tile.hits * 16ull, gpu::Usage::storage_and_texels);
     device_.run([&](gpu::Recorder& recorder) { recorder.copy(loose, tight, tile.hits * 16ull); });

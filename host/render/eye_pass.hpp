@@ -13,8 +13,28 @@
 
 namespace ppm::render {
 
-/// Hit points a tile holds at most: as many as asked for, or as the device's largest buffer takes.
-std::uint64_t tile_capacity(const Settings& settings, const gpu::Device& device);
+/// Hit points a tile holds at most: as many as asked for, or as the largest buffer takes.
+std::uint64_t tile_capacity(const Settings& settings, std::uint64_t storage_bytes);
+/// For how many the largest tile has room: fewer where the picture is small.
+std::uint64_t tile_records(const Settings& settings, std::uint64_t storage_bytes);
+
+/// How much an eye pass holds at a time.
+struct EyeRoom {
+  std::uint64_t capacity;  ///< hit points of a tile, at most
+  std::uint64_t queue;     ///< eye paths of a tile, and paths in a queue, at most
+  std::uint32_t samples;   ///< eye paths a pixel
+  double hits_a_pixel;     ///< expected before the first tile tells
+
+  static EyeRoom of(const Settings& settings, std::uint64_t storage_bytes);
+
+  /// Pixels worth trying for a tile, when so many hit points a pixel are expected.
+  std::uint32_t pixels_for(double hits_expected) const;
+  /// Records for which such a tile gets room; more than are expected, since tracing again costs
+  /// more.
+  std::uint64_t records_for(double hits_expected, std::uint64_t pixels) const;
+  /// What of so much room is left when the hit points are known and the tile stays.
+  static std::uint64_t tightened(std::uint64_t room, std::uint64_t hits);
+};
 
 /// What takes long to make and depends on little.
 struct EyeKernels {
@@ -32,15 +52,18 @@ class EyePass {
           const Settings& settings);
 
   /// Pixels worth trying for the next tile: what earlier tiles needed a pixel, and some reserve.
-  std::uint32_t suggested_pixels() const;
+  std::uint32_t suggested_pixels() const { return room_.pixels_for(hits_per_pixel_); }
 
   enum class Result { done, too_large, interrupted };
 
-  /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them.
-  /// too_large: a queue overflowed or a tile cannot hold the hit points, and fewer pixels must be
-  /// tried.
+  /// Traces the eye paths of `pixels` pixels from `first_pixel` on and makes a tile of them, in the
+  /// buffers that `tile` has as far as they suffice. too_large: a queue overflowed or a tile cannot
+  /// hold the hit points, and fewer pixels must be tried.
   Result trace(std::uint32_t first_pixel, std::uint32_t pixels,
                const std::function<bool()>& interrupted, HitTile& tile);
+
+  /// Moves the tile's geometry to buffers of the size needed, where they are much larger.
+  void tighten(HitTile& tile);
 
   const Counters& counters() const { return counters_; }  ///< of the last trace
   std::uint64_t rays() const { return rays_; }            ///< searches for the closest hit, idem
@@ -52,16 +75,14 @@ class EyePass {
   Result trace_paths(const HitTile& tile, std::uint64_t room,
                      const std::function<bool()>& interrupted);
   void order_hits(HitTile& tile);
-  /// Moves the geometry to buffers of exactly the size needed.
-  void tighten(HitTile& tile);
 
   gpu::Device& device_;
   const EyeKernels& kernels_;
   std::uint32_t samples_;
   Filter filter_;
-  std::uint64_t capacity_;        ///< hit points of a tile
-  std::uint64_t queue_capacity_;  ///< eye paths of a tile, and paths in a queue
-  double hits_per_pixel_;         ///< expected of the next tile
+  EyeRoom room_;
+  std::uint64_t capacity_, queue_capacity_;  ///< room_'s
+  double hits_per_pixel_;                    ///< expected of the next tile
   gpu::BindingTable table_;
   ExclusiveScan scan_;
   gpu::Buffer queue_[2], group_count_, keys_, arrivals_;

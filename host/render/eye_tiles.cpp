@@ -3,10 +3,16 @@
 #include <algorithm>
 
 #include "failure.hpp"
+#include "memory_shortage.hpp"
 #include "region.hpp"
-#include "tally.hpp"
 
 namespace ppm::render {
+namespace {
+
+// Smaller tiles would take no less beside what else there is.
+constexpr std::uint64_t kFewestTileHits = 1u << 12;
+
+}  // namespace
 
 EarlyEyeKernels::EarlyEyeKernels(const scene::Scene& scene, const Settings& settings,
                                  gpu::Device& device)
@@ -31,46 +37,52 @@ void check_paths(const Settings& settings) {
   }
 }
 
-bool for_each_eye_tile(gpu::Device& device, const EyeKernels& kernels,
-                       const gpu::BindingTable& scene, const Settings& settings,
-                       const std::function<bool()>& interrupted,
-                       const std::function<void(HitTile&, const EyePass&)>& use) {
-  const gpu::Region region(device, "eye");
-  EyePass eye(device, kernels, scene, settings);
-  const std::uint32_t all_pixels = settings.width * settings.height;
-  std::uint32_t pixels = 0;
-  for (std::uint32_t first = 0; first < all_pixels; first += pixels) {
-    pixels = std::min(all_pixels - first, eye.suggested_pixels());
-    HitTile tile;
-    for (;;) {
-      const EyePass::Result result = eye.trace(first, pixels, interrupted, tile);
-      if (result == EyePass::Result::interrupted) return false;
-      if (result == EyePass::Result::done) break;
-      if (pixels == 1) {
-        throw Failure("", "--spp " + std::to_string(settings.samples_per_pixel),
-                      "the hit points of one pixel do not fit a tile",
-                      "lower --spp or raise --tile-hits");
-      }
-      pixels = (pixels + 1) / 2;
+EyeTiles::EyeTiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+                   const Settings& settings, Shortage shortage)
+    : device_(device), kernels_(kernels), scene_(scene), settings_(settings), shortage_(shortage) {}
+
+bool EyeTiles::for_each(const std::function<bool()>& interrupted,
+                        const std::function<bool(HitTile&, EyePass&)>& use) {
+  const gpu::Region region(device_, "eye");
+  const std::uint32_t all_pixels = settings_.width * settings_.height;
+  for (std::uint32_t first = 0; first < all_pixels;) {
+    try {
+      if (!make(first, interrupted)) return false;
+      const std::uint32_t pixels = tile_.pixels;
+      if (!use(tile_, *eye_)) return false;
+      first += pixels;
+    } catch (const gpu::MemoryShortage&) {
+      if (shortage_ == Shortage::throws || !shrink()) throw;
     }
-    use(tile, eye);
   }
   return true;
 }
 
-bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
-                     const Settings& settings, const std::function<bool()>& interrupted,
-                     std::vector<HitTile>& tiles, Statistics& statistics) {
-  return for_each_eye_tile(device, kernels, scene, settings, interrupted,
-                           [&](HitTile& tile, const EyePass& eye) {
-                             Tally tally;
-                             tally.add(eye.counters());
-                             tally.add_to(statistics);
-                             statistics.hit_points += tile.hits;
-                             statistics.eye_rays += eye.rays();
-                             tiles.push_back(std::move(tile));
-                             statistics.tiles = tiles.size();
-                           });
+bool EyeTiles::make(std::uint32_t first_pixel, const std::function<bool()>& interrupted) {
+  if (!eye_) eye_.emplace(device_, kernels_, scene_, settings_);
+  const std::uint32_t left = settings_.width * settings_.height - first_pixel;
+  for (std::uint32_t pixels = std::min(left, eye_->suggested_pixels());;
+       pixels = (pixels + 1) / 2) {
+    const EyePass::Result result = eye_->trace(first_pixel, pixels, interrupted, tile_);
+    if (result == EyePass::Result::interrupted) return false;
+    if (result == EyePass::Result::done) return true;
+    if (pixels == 1) {
+      throw Failure("", "--spp " + std::to_string(settings_.samples_per_pixel),
+                    "the hit points of one pixel do not fit a tile",
+                    "lower --spp or raise --tile-hits");
+    }
+  }
+}
+
+bool EyeTiles::shrink() {
+  const std::uint64_t most = tile_records(settings_, device_.max_storage_bytes());
+  if (most / 2 < std::max<std::uint64_t>(kFewestTileHits, settings_.samples_per_pixel)) {
+    return false;
+  }
+  tile_ = {};
+  eye_.reset();
+  settings_.tile_hits = most / 2;
+  return true;
 }
 
 }  // namespace ppm::render

@@ -4,7 +4,6 @@
 #include <functional>
 #include <future>
 #include <optional>
-#include <vector>
 
 #include "eye_pass.hpp"
 #include "hit_tile.hpp"
@@ -30,17 +29,34 @@ class EarlyEyeKernels {
 /// Throws Failure where there are more eye paths or photon paths a pass than can be numbered.
 void check_paths(const Settings& settings);
 
-/// Makes the tiles of all pixels one after the other and gives each to `use`, with the pass that
-/// made it. `scene`: the table of scene buffers. Returns false when interrupted.
-bool for_each_eye_tile(gpu::Device& device, const EyeKernels& kernels,
-                       const gpu::BindingTable& scene, const Settings& settings,
-                       const std::function<bool()>& interrupted,
-                       const std::function<void(HitTile&, const EyePass&)>& use);
+/// Makes the tiles of all pixels one after the other, any number of times.
+class EyeTiles {
+ public:
+  /// What is done when the device has no memory for a tile.
+  enum class Shortage { throws, makes_tiles_smaller };
+  /// `scene`: the table of scene buffers. The kernels must outlive it.
+  EyeTiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
+           const Settings& settings, Shortage shortage);
 
-/// Appends the tiles of all pixels to `tiles`, and adds to the statistics what they took. `scene`:
-/// the table of scene buffers. Returns false when interrupted.
-bool trace_eye_tiles(gpu::Device& device, const EyeKernels& kernels, const gpu::BindingTable& scene,
-                     const Settings& settings, const std::function<bool()>& interrupted,
-                     std::vector<HitTile>& tiles, Statistics& statistics);
+  /// Gives each tile to `use`, with the pass that made it. The tile's buffers are those of the one
+  /// before as far as they suffice, unless `use` takes them away. Returns false as soon as
+  /// `interrupted` says yes or `use` returns false. Where tiles are made smaller `use` may be
+  /// called again for the pixels that it met a MemoryShortage with.
+  bool for_each(const std::function<bool()>& interrupted,
+                const std::function<bool(HitTile&, EyePass&)>& use);
+
+ private:
+  bool make(std::uint32_t first_pixel, const std::function<bool()>& interrupted);
+  /// False: they are as small as they can be.
+  bool shrink();
+
+  gpu::Device& device_;
+  const EyeKernels& kernels_;
+  gpu::BindingTable scene_;
+  Settings settings_;
+  Shortage shortage_;
+  std::optional<EyePass> eye_;
+  HitTile tile_;
+};
 
 }  // namespace ppm::render

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "failure.hpp"
+#include "memory_shortage.hpp"
 
 namespace ppm::render {
 namespace {
@@ -31,12 +32,13 @@ double value_of(const shared::FilmSum& sum) {
 
 }  // namespace
 
-Film::Film(gpu::Device& device, const shared::SceneConstants& scene)
+Film::Film(gpu::Device& device, const shared::SceneConstants& scene, bool keeps)
     : device_(device),
       constants_(film_constants(scene)),
       constants_buffer_(gpu::make_buffer(device, "film constants",
                                          std::span<const shared::FilmConstants>(&constants_, 1),
                                          gpu::Usage::uniform)),
+      keeps_(keeps),
       planes_{plane(device, "film, red", pixels()), plane(device, "film, green", pixels()),
               plane(device, "film, blue", pixels())} {
   clear();
@@ -57,17 +59,23 @@ void Film::clear() {
   });
 }
 
-void Film::keep() {
+bool Film::keep() {
+  if (!keeps_) return false;
   if (!kept_[0]) {
-    kept_ = {plane(device_, "kept film, red", pixels()),
-             plane(device_, "kept film, green", pixels()),
-             plane(device_, "kept film, blue", pixels())};
+    try {
+      kept_ = {plane(device_, "kept film, red", pixels()),
+               plane(device_, "kept film, green", pixels()),
+               plane(device_, "kept film, blue", pixels())};
+    } catch (const gpu::MemoryShortage&) {
+      return keeps_ = false;
+    }
   }
   device_.run([&](gpu::Recorder& recorder) {
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       recorder.copy(planes_[i], kept_[i], planes_[i].bytes());
     }
   });
+  return true;
 }
 
 void Film::revert() {

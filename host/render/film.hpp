@@ -15,17 +15,19 @@ namespace ppm::render {
 
 class Film {
  public:
-  /// Of the picture and for the light that `scene` tells of. Black. Throws Failure where the
-  /// picture is too large for the device.
-  Film(gpu::Device& device, const shared::SceneConstants& scene);
+  /// Of the picture and for the light that `scene` tells of. Black. `keeps`: whether `keep` may
+  /// take memory. Throws Failure where the picture is too large for the device.
+  Film(gpu::Device& device, const shared::SceneConstants& scene, bool keeps = true);
 
   void bind(gpu::BindingTable& table) const;
   /// The sums alone, as three buffers from this binding on, beside another film.
   void bind_sums(gpu::BindingTable& table, std::uint32_t first_binding) const;
   void clear();
 
-  /// Remembers what there is now, and goes back to it: for a pass that may have to be discarded.
-  void keep();
+  /// Remembers what there is now, for a pass that may have to be discarded. False: there is no
+  /// memory for that, and the pass must be finished.
+  bool keep();
+  /// Back to what was kept last.
   void revert();
 
   /// What has been added, divided by `samples` (positive): radiance.
@@ -36,8 +38,8 @@ class Film {
   /// False, and nothing is changed, unless there are as many words as `save` gives.
   bool restore(std::span<const std::uint32_t> words);
 
-  /// What a film of so many pixels takes on the device, with what it keeps.
-  static std::uint64_t bytes(std::uint64_t pixels) { return 6 * sizeof(shared::FilmSum) * pixels; }
+  /// What a film of so many pixels takes on the device, and what it keeps as much again.
+  static std::uint64_t bytes(std::uint64_t pixels) { return 3 * sizeof(shared::FilmSum) * pixels; }
 
  private:
   std::uint64_t pixels() const { return std::uint64_t{constants_.width} * constants_.height; }
@@ -45,6 +47,7 @@ class Film {
   gpu::Device& device_;
   shared::FilmConstants constants_;
   gpu::Buffer constants_buffer_;
+  bool keeps_;
   std::array<gpu::Buffer, 3> planes_, kept_;
 };
 

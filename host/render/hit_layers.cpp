@@ -62,9 +62,8 @@ Means means_of(const TileData& data, std::uint32_t first, std::uint32_t last, do
 
 }  // namespace
 
-std::vector<image::Layer> hit_layers(std::span<const HitTile> tiles, const Settings& settings,
-                                     double kept, const scene::Frame& frame,
-                                     std::span<const LayerKind> kinds) {
+std::vector<image::Layer> hit_layers(HitTiles& tiles, const Settings& settings, double kept,
+                                     const scene::Frame& frame, std::span<const LayerKind> kinds) {
   std::vector<LayerKind> wanted;
   std::vector<image::Layer> layers;
   for (const LayerKind kind : kinds) {
@@ -74,7 +73,7 @@ std::vector<image::Layer> hit_layers(std::span<const HitTile> tiles, const Setti
   }
   if (layers.empty()) return layers;
   const std::uint32_t samples = settings.samples_per_pixel;
-  for (const HitTile& tile : tiles) {
+  const auto add = [&](const HitTile& tile) {
     const TileData data(tile, samples);
     for (std::uint32_t i = 0; i < tile.pixels; ++i) {
       const Means means = means_of(data, data.starts[i * samples], data.starts[(i + 1) * samples],
@@ -86,7 +85,9 @@ std::vector<image::Layer> hit_layers(std::span<const HitTile> tiles, const Setti
             static_cast<float>(means.of(wanted[layer]));
       }
     }
-  }
+    return true;
+  };
+  tiles.for_each([] { return false; }, HitTiles::Keep::no, add);
   return layers;
 }
 

@@ -1,7 +1,7 @@
 // Layers of what hit points have gathered.
 #pragma once
 
-#include "hit_tile.hpp"
+#include "hit_tiles.hpp"
 #include "layers.hpp"
 #include "scene.hpp"
 
@@ -11,8 +11,7 @@ namespace ppm::render {
 /// hit points of a pixel, weighted as in the picture, 0 where there are none. `kept`: the share of
 /// the photons found that N counts (alpha); with it N / (pi R^2) is the density of all that
 /// arrived.
-std::vector<image::Layer> hit_layers(std::span<const HitTile> tiles, const Settings& settings,
-                                     double kept, const scene::Frame& frame,
-                                     std::span<const LayerKind> kinds);
+std::vector<image::Layer> hit_layers(HitTiles& tiles, const Settings& settings, double kept,
+                                     const scene::Frame& frame, std::span<const LayerKind> kinds);
 
 }  // namespace ppm::render

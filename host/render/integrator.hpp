@@ -47,12 +47,23 @@ struct Settings {
   std::uint32_t nearest = 500;          ///< of those, n of Eq. 1
   std::uint32_t passes_in_flight = 0;   ///< photon passes that the device is given at a time; 0:
                                         ///< what suits it. Neither ever changes the picture
+  // How memory is saved; neither changes the picture. A pass that was begun can then not be
+  // discarded: it is finished.
+  bool traces_anew = false;  ///< hit points are traced anew for each pass
+  bool keeps_film = true;    ///< as a pass begins, to go back to it
+  // Bytes that may be in use on the device; beyond, hit points are traced anew.
+  std::uint64_t eye_allowance = UINT64_MAX;   ///< while hit points are found
+  std::uint64_t pass_allowance = UINT64_MAX;  ///< afterwards
 };
 
 /// A linear RGB picture, row-major from the top, radiance in W/(m^2 sr).
 struct Picture {
   std::uint32_t width = 0, height = 0;
   std::vector<float> rgb;  ///< 3 * width * height
+
+  static Picture black(std::uint32_t width, std::uint32_t height) {
+    return {width, height, std::vector<float>(3ull * width * height, 0.0f)};
+  }
 };
 
 /// What has been done so far; names and units as in the statistics file.
@@ -99,7 +110,7 @@ class Integrator {
   virtual bool prepare(const std::function<bool()>& interrupted) = 0;
 
   /// One pass. When `interrupted` says so the pass in hand is discarded without trace and false
-  /// returned.
+  /// returned; or it is finished, where memory is saved.
   virtual bool advance(const std::function<bool()>& interrupted) = 0;
 
   /// As many of `passes` (1 or more) as the method likes to make at a time. Returns how many were

@@ -59,7 +59,8 @@ class LayerSource {
 std::vector<image::Layer> layers_of(Integrator& integrator, std::span<const LayerKind> kinds);
 
 /// What layers take beside all else (memory_plan.cpp).
-std::vector<MemoryPart> layers_memory(const Settings& settings, std::span<const LayerKind> kinds);
+std::vector<MemoryPart> layers_memory(const Settings& settings, const PassLimits& limits,
+                                      std::span<const LayerKind> kinds);
 
 /// Eye paths a pixel that layers are made of: those of the picture; in methods whose samples are
 /// drawn pass by pass 16.

@@ -6,7 +6,10 @@
 #include <functional>
 
 #include "binary_tree.hpp"
+#include "cell_table.hpp"
+#include "eye_shape.hpp"
 #include "film.hpp"
+#include "hit_tiles.hpp"
 #include "layers.hpp"
 #include "nearest_photons.hpp"
 #include "photon_map.hpp"
@@ -15,18 +18,15 @@
 namespace ppm::render {
 namespace {
 
-constexpr double kHitsAPath = 1.25;
 constexpr double kNodesATriangle = 0.4;
+// Parts that are less than this part of all are told of together.
+constexpr std::uint64_t kSmallPart = 50;
 // Program, libraries, compiled kernels; measured with lavapipe.
+constexpr const char* kProgramName = "program and driver";
 constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
 
-constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::render};
+constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::eye, Phase::render};
 
-// Records of a hit point that stay, and those that only the tile in hand needs.
-constexpr std::uint64_t kHitBytes = sizeof(shared::HitPoint) + sizeof(glm::vec4) +
-                                    sizeof(shared::GatherSum) + 3 * sizeof(std::uint32_t);
-constexpr std::uint64_t kTileHitBytes =
-    5 * 16 + sizeof(shared::HitKey) + sizeof(std::uint32_t) + 2 * sizeof(shared::EyePath);
 constexpr std::uint64_t kPhotonBytes = 4 * sizeof(glm::uvec4);  // as found and in cell order
 
 // Of an entry of an alias table while it is made: its weight, also scaled, threshold, alias and its
@@ -35,6 +35,37 @@ constexpr std::uint64_t kAliasBytes = 2 * sizeof(double) + 3 * sizeof(std::uint3
 
 std::uint64_t share(double factor, std::uint64_t count) {
   return static_cast<std::uint64_t>(factor * static_cast<double>(count));
+}
+
+// Two lists of a hit point's, while the pilot runs.
+constexpr std::uint64_t kPilotBytes = 2 * sizeof(std::uint32_t);
+
+/// Of methods with hit points. `pilot`: bytes that each needs before it is in search order.
+std::vector<MemoryPart> hit_memory(const Settings& settings, const PassLimits& limits,
+                                   std::uint64_t pilot) {
+  const EyeShape eye = EyeShape::of(settings, limits);
+  const bool anew = settings.traces_anew;
+  const std::uint64_t hits = anew ? eye.tile_hits : eye.hits;
+  const std::uint64_t searched =
+      hits * std::max<std::uint64_t>(pilot, sizeof(std::uint32_t)) + eye.tile_pixels * 16;
+  const std::uint64_t search_table = max_entries(hashed_entries_for(eye.capacity));
+  std::vector<MemoryPart> parts = {
+      {"hit points", anew ? eye.tile_bytes() : eye.all_tiles_bytes(), true, Phase::eye,
+       Phase::render},
+      {"eye paths", eye.making_bytes(), true, Phase::eye, anew ? Phase::render : Phase::eye},
+      {"searches", eye.capacity * 2 * sizeof(shared::GatherCursor) + table_bytes(search_table),
+       true, Phase::upload, Phase::render},
+      {"order of searches", searched, true, Phase::render, Phase::render},
+      // Their median is told.
+      {"radii", eye.hits * sizeof(float), false, Phase::render, Phase::render},
+      {"statistics on their way", eye.tile_hits * (sizeof(glm::vec4) + 2 * sizeof(std::uint32_t)),
+       false, Phase::eye, Phase::render},
+  };
+  if (anew) {
+    parts.push_back(
+        {"statistics of hit points", eye.hits * sizeof(KeptHit), false, Phase::eye, Phase::render});
+  }
+  return parts;
 }
 
 std::uint64_t held(const MemoryPlan& plan, Phase phase,
@@ -77,61 +108,71 @@ std::uint64_t MemoryPlan::peak() const {
 std::uint64_t MemoryPlan::host_peak() const {
   return most_held(*this, [](const MemoryPart& part) { return !part.on_device; });
 }
+std::uint64_t MemoryPlan::held(Phase phase, bool on_device) const {
+  return render::held(*this, phase,
+                      [=](const MemoryPart& part) { return part.on_device == on_device; });
+}
 std::uint64_t MemoryPlan::device_peak() const {
   return most_held(*this, [](const MemoryPart& part) { return part.on_device; });
 }
 
 std::vector<MemoryPart> ppm_memory(const Settings& settings, const PassLimits& limits) {
-  const std::uint64_t paths =
-      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
-  const std::uint64_t hits = share(kHitsAPath, paths);
   const PassCapacities capacities = pass_capacities(settings, limits);
-  const std::uint64_t photons = capacities.photons * kPhotonBytes +
-                                capacities.paths * 2 * sizeof(shared::PhotonPath) +
-                                capacities.grid_entries * 2 * sizeof(std::uint32_t);
-  return {
-      {"hit points", hits * kHitBytes + std::min(hits, settings.tile_hits) * kTileHitBytes, true,
-       Phase::render, Phase::render},
-      {"photons", photons, true, Phase::upload, Phase::render},
-  };
+  const std::uint64_t table =
+      std::max(max_entries(hashed_entries_for(capacities.photons)), capacities.grid_entries);
+  std::vector<MemoryPart> parts = hit_memory(settings, limits, kPilotBytes);
+  parts.push_back({"photons",
+                   capacities.photons * kPhotonBytes +
+                       capacities.paths * 2 * sizeof(shared::PhotonPath) + table_bytes(table),
+                   true, Phase::upload, Phase::render});
+  return parts;
 }
 
 std::vector<MemoryPart> photon_map_memory(const Settings& settings, const PassLimits& limits) {
-  const std::uint64_t paths =
-      std::uint64_t{settings.width} * settings.height * settings.samples_per_pixel;
-  const std::uint64_t hits = share(kHitsAPath, paths);
-  const std::uint64_t in_tile = std::min(hits, settings.tile_hits);
   const PassCapacities capacities = pass_capacities(settings, limits);
-  return {
-      {"hit points", hits * kHitBytes + in_tile * (kTileHitBytes + NearestPhotons::kHitBytes), true,
-       Phase::render, Phase::render},
-      // As found; they are sorted in the map.
+  const EyeShape eye = EyeShape::of(settings, limits);
+  const std::uint64_t tile_hits = settings.traces_anew ? eye.tile_room : eye.tile_hits;
+  std::vector<MemoryPart> parts = hit_memory(settings, limits, 0);
+  parts.push_back({"nearest photons", std::min(eye.hits, tile_hits) * NearestPhotons::kHitBytes,
+                   true, Phase::render, Phase::render});
+  // As found; they are sorted in the map.
+  parts.push_back(
       {"photons",
        capacities.photons * kPhotonBytes / 2 + capacities.paths * 2 * sizeof(shared::PhotonPath),
-       true, Phase::upload, Phase::render},
-      {"photon map", PhotonMapShape::of(settings, limits).bytes(), true, Phase::upload,
-       Phase::render},
-  };
+       true, Phase::upload, Phase::render});
+  parts.push_back({"photon map", PhotonMapShape::of(settings, limits).bytes(), true, Phase::upload,
+                   Phase::render});
+  return parts;
 }
 
 std::vector<MemoryPart> path_tracer_memory(const Settings& settings, const PassLimits& limits) {
   const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
   const std::uint64_t paths = pass_capacities(settings, limits).camera_paths;
+  const bool keeps = settings.keeps_film && paths < pixels;
   return {{"paths", paths * 2 * sizeof(shared::CameraPath), true, Phase::upload, Phase::render},
-          {"film", Film::bytes(pixels), true, Phase::upload, Phase::render}};
+          film_memory(pixels, keeps)};
 }
 
-std::vector<MemoryPart> layers_memory(const Settings& settings, std::span<const LayerKind> kinds) {
+MemoryPart film_memory(std::uint64_t pixels, bool keeps) {
+  return {"film", (keeps ? 2 : 1) * Film::bytes(pixels), true, Phase::upload, Phase::render};
+}
+
+std::vector<MemoryPart> layers_memory(const Settings& settings, const PassLimits& limits,
+                                      std::span<const LayerKind> kinds) {
   if (kinds.empty()) return {};
   const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
   std::uint64_t channels = 0;
   for (const LayerKind kind : kinds) channels += facts_of(kind).channels.size();
-  const std::uint64_t hits = share(kHitsAPath, pixels * layer_samples(settings));
-  const std::uint64_t in_tile = std::min(hits, settings.tile_hits);
+  Settings own = settings;
+  own.samples_per_pixel = layer_samples(settings);
+  PassLimits layered = limits;
+  layered.layered_hits = true;
+  const EyeShape eye = EyeShape::of(own, layered);
   // Once more while a file is made.
   return {{"layers", 2 * channels * pixels * sizeof(float), false, Phase::render, Phase::render},
-          {"eye paths of layers", in_tile * (kHitBytes + kTileHitBytes), true, Phase::render,
-           Phase::render}};
+          {"eye paths of layers",
+           eye.tile_bytes() + eye.making_bytes() + eye.tile_pixels * 4 * sizeof(glm::vec4), true,
+           Phase::render, Phase::render}};
 }
 
 MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
@@ -167,37 +208,47 @@ MemoryPlan memory_plan(const scene::SceneSize& size, const Settings& settings,
       {"materials, media and lights on the device", surroundings, true, Phase::upload,
        Phase::render},
       {"textures on the device", size.texture_bytes, true, Phase::upload, Phase::render},
+      {"transfers", limits.transfer_bytes, true, Phase::upload, Phase::render},
       {"picture", std::uint64_t{settings.width} * settings.height * 2 * 3 * sizeof(float), false,
        Phase::render, Phase::render},
-      {"program and driver", kProgram, false, Phase::load, Phase::render},
+      {kProgramName, kProgram, false, Phase::load, Phase::render},
   };
   for (MemoryPart& part : method_memory(settings, limits)) plan.parts.push_back(std::move(part));
   return plan;
 }
 
 MemoryPart checkpoint_memory(const Settings& settings, const PassLimits& limits) {
-  constexpr std::uint64_t kSavedHitBytes = sizeof(glm::vec4) + sizeof(std::uint32_t);
   std::uint64_t state = 0;
   for (const MemoryPart& part : method_memory(settings, limits)) {
-    if (part.name == "film" || part.name == "photon map") state += part.bytes;
+    if (part.name == "chains") state += part.bytes;
   }
-  if (method_named(settings.integrator).has_option("--alpha")) {
-    state += kSavedHitBytes * share(kHitsAPath, std::uint64_t{settings.width} * settings.height *
-                                                    settings.samples_per_pixel);
+  const Method method = method_named(settings.integrator);
+  if (method.unit != PassUnit::photons) {
+    state += Film::bytes(std::uint64_t{settings.width} * settings.height);
+  }
+  if (method.has_option("--alpha")) {
+    state += sizeof(KeptHit) * EyeShape::of(settings, limits).hits;
   }
   return {"checkpoint", 2 * state, false, Phase::render, Phase::render};
 }
 
 const MemoryPart& largest_part(const MemoryPlan& plan) {
-  return *parts_at_peak(plan).front();
+  const std::vector<const MemoryPart*> parts = parts_at_peak(plan);
+  const bool is_program = parts.front()->name == kProgramName && parts.size() > 1;
+  return *parts[is_program ? 1 : 0];
 }
 
 std::string describe_peak(const MemoryPlan& plan) {
   std::string text;
+  std::uint64_t rest = 0;
   for (const MemoryPart* part : parts_at_peak(plan)) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part->name, size_text(part->bytes));
+    if (part->bytes < plan.peak() / kSmallPart) {
+      rest += part->bytes;
+    } else {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part->name, size_text(part->bytes));
+    }
   }
-  return text;
+  return text + (rest > 0 ? ", others " + size_text(rest) : "");
 }
 
 std::string size_text(std::uint64_t bytes) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "failure.hpp"
 #include "memory_plan.hpp"
@@ -66,8 +67,9 @@ std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& l
   return {
       {"sub-paths", sampler.bytes(true), true, Phase::upload, Phase::render},
       {"chains", words + states + Film::bytes(sampler.paths), true, Phase::upload, Phase::render},
-      {"chains as a pass begins", words + states, false, Phase::render, Phase::render},
-      {"film", Film::bytes(pixels), true, Phase::upload, Phase::render}};
+      {"chains as a pass begins", settings.keeps_film ? words + states : 0, false, Phase::render,
+       Phase::render},
+      film_memory(pixels, settings.keeps_film)};
 }
 
 MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene,
@@ -79,7 +81,7 @@ MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene
       traits_(traits_with_segments(scene, buffers_)),
       chains_(chains_for(device.profile(), settings)),
       bootstrap_(bootstrap_for(chains_)),
-      film_(device, buffers_.constants()),
+      film_(device, buffers_.constants(), settings.keeps_film),
       proposals_(
           device,
           of_chains(buffers_.constants(),
@@ -221,13 +223,14 @@ bool MltIntegrator::advance(const std::function<bool()>& interrupted) {
   const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
   const std::uint64_t steps = (statistics_.passes + 1) * pixels / chains_;
   if (normalisation_ > 0.0) {
+    if (interrupted()) return false;
     refine_normalisation();
-    const Snapshot before = snapshot();
-    film_.keep();
+    std::optional<Snapshot> before;
+    if (film_.keep()) before = snapshot();
+    const auto stop = [&] { return before && interrupted(); };
     for (; steps_ < steps; ++steps_) {
-      if (run(static_cast<std::uint32_t>(steps_), PPM_CHAINS_MUTATE, chains_, interrupted))
-        continue;
-      go_back(before);
+      if (run(static_cast<std::uint32_t>(steps_), PPM_CHAINS_MUTATE, chains_, stop)) continue;
+      go_back(*before);
       return false;
     }
   }

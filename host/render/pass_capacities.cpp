@@ -15,15 +15,18 @@ constexpr std::uint64_t kFewestPhotons = 1u << 16;
 // The largest that is ever needed: the kernels tell passes apart by single precision.
 constexpr std::uint64_t kMostPaths = 1u << 23;
 constexpr std::uint64_t kGridEntriesAPass = 1u << 20;
+// What the device room takes for itself, and what copies to memory that the host cannot see.
+constexpr std::uint64_t kTransferBytes = (1u << 20) + (1u << 16), kStagingBytes = 1u << 24;
 
 }  // namespace
 
 PassLimits PassLimits::of(const gpu::Device& device) {
-  return {device.profile(), device.max_storage_bytes()};
+  return {device.profile(), device.max_storage_bytes(),
+          device.shares_host_memory() ? kTransferBytes : kTransferBytes + kStagingBytes};
 }
 
 PassLimits PassLimits::of_cpu() {
-  return {gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_CPU), std::uint64_t{1} << 27};
+  return {gpu::device_profile(VK_PHYSICAL_DEVICE_TYPE_CPU), std::uint64_t{1} << 27, kTransferBytes};
 }
 
 PassCapacities pass_capacities(const Settings& settings, const PassLimits& limits) {
@@ -42,6 +45,11 @@ PassCapacities pass_capacities(const Settings& settings, const PassLimits& limit
                std::max({kPhotonsAPath * emitted, capacities.passes * kPhotonsABatchPath * emitted,
                          kFewestPhotons}));
   capacities.grid_entries = std::max(profile.grid_entries, asked * kGridEntriesAPass);
+  if (settings.photon_capacity > 0) {
+    // Hardly a path leaves no photon; and a table of one pass is made in any case.
+    capacities.paths = std::min(capacities.paths, settings.photon_capacity);
+    capacities.grid_entries = std::min(capacities.grid_entries, 4 * settings.photon_capacity);
+  }
 
   // A picture is traced in parts of so many paths, a small one several times at once.
   const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;

@@ -13,10 +13,13 @@ struct PassCapacities {
   std::uint64_t camera_paths;  ///< whose state is kept at a time, of methods that trace them
 };
 
-/// What of a device decides them.
+/// What of device and scene decides how much is held.
 struct PassLimits {
   gpu::DeviceProfile profile;
-  std::uint64_t storage_bytes;  ///< of one buffer, at most
+  std::uint64_t storage_bytes;   ///< of one buffer, at most
+  std::uint64_t transfer_bytes;  ///< between host and device, held for the device's life
+  double hits_a_path = 1.25;     ///< hit points, and light seen, to be expected of an eye path
+  bool layered_hits = false;     ///< SceneTraits::layers
 
   static PassLimits of(const gpu::Device& device);
   /// Of lavapipe, without asking it.

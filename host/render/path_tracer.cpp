@@ -44,7 +44,7 @@ PathTracer::PathTracer(const Settings& settings, const scene::Scene& scene, gpu:
               gpu::Usage::storage}},
       batch_(device),
       counters_(device),
-      film_(device, buffers_.constants()) {
+      film_(device, buffers_.constants(), settings.keeps_film) {
   statistics_.seconds["pipelines"] = clock_seconds() - pipelines_begin_;
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
   statistics_.seconds["upload"] = buffers_.upload_seconds();
@@ -80,9 +80,9 @@ std::uint64_t PathTracer::advance_up_to(std::uint64_t passes,
   const std::uint64_t all = made * pixels;
   const bool in_parts = all > path_capacity_;
   if (interrupted()) return 0;
-  if (in_parts) film_.keep();
+  const bool can_go_back = in_parts && film_.keep();
   for (std::uint64_t first = 0; first < all; first += path_capacity_) {
-    if (first > 0 && interrupted()) {
+    if (first > 0 && can_go_back && interrupted()) {
       film_.revert();
       return 0;
     }

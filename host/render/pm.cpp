@@ -8,6 +8,7 @@
 #include "failure.hpp"
 #include "hit_layers.hpp"
 #include "memory_plan.hpp"
+#include "memory_shortage.hpp"
 #include "radius_summary.hpp"
 #include "region.hpp"
 #include "shared/random.h"
@@ -26,7 +27,7 @@ constexpr std::uint64_t kSample = 2048;
 constexpr std::uint64_t kFull = 1024;
 // Paths after which a scene in which none has left a photon is given up.
 constexpr std::uint64_t kHopeless = std::uint64_t{1} << 22;
-// Cells of the search order in likely radii: neighbours in space search together.
+// Cells of the search order in likely radii.
 constexpr float kOrderCell = 0.25f;
 
 float largest_radius(const Settings& settings, const scene::Scene& scene,
@@ -84,7 +85,8 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::
       map_(device, scene.bounds_min, scene.bounds_max,
            announced(PhotonMapShape::of(settings, PassLimits::of(device)), settings.map_photons,
                      log)),
-      estimator_(device, table_, traits_, tile_capacity(settings, device)),
+      estimator_(device, table_, traits_, tile_capacity(settings, device.max_storage_bytes())),
+      tiles_(device, table_, settings, log),
       largest_radius_(largest_radius(settings, scene, buffers_)) {
   statistics_.seconds["bvh"] = buffers_.bvh_seconds();
   statistics_.seconds["upload"] = buffers_.upload_seconds();
@@ -96,19 +98,13 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Settings& settings, const scene::
 
 bool PhotonMapIntegrator::prepare(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
-  const EyeKernels& kernels = eye_kernels_.get(traits_);
-  if (!trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_)) {
-    return false;
+  if (!tiles_.trace(eye_kernels_.get(traits_), interrupted, statistics_)) return false;
+  try {
+    prepare_searches();
+  } catch (const gpu::MemoryShortage& shortage) {
+    tiles_.trace_anew(shortage);
+    prepare_searches();
   }
-  const float radius2 =
-      likely_radius2(traits_, settings_.nearest, static_cast<double>(settings_.map_photons));
-  for (const HitTile& tile : tiles_) {
-    estimator_.set_radii(tile, kOrderCell * std::sqrt(radius2), 0.0f);
-  }
-  estimator_.prepare_searches(tiles_);
-  std::uint32_t most = 0;
-  for (const HitTile& tile : tiles_) most = std::max(most, tile.hits);
-  nearest_.emplace(device_, traits_, most);
   return true;
 }
 
@@ -123,6 +119,22 @@ void PhotonMapIntegrator::look_from(const scene::Camera& camera) {
   estimated_ = 0;
   rejected_ = {};
   statistics_ = statistics_.of_scene();
+}
+
+void PhotonMapIntegrator::prepare_searches() {
+  nearest_.reset();
+  nearest_.emplace(device_, traits_, tiles_.most_hits());
+  for (HitTile& tile : tiles_.all()) {
+    estimator_.reserve_pixels(tile.pixels);
+    order_searches(tile);
+  }
+}
+
+// In cells of likely radii: neighbours in space search together.
+void PhotonMapIntegrator::order_searches(HitTile& tile) {
+  const float radius = std::sqrt(
+      likely_radius2(traits_, settings_.nearest, static_cast<double>(settings_.map_photons)));
+  estimator_.order_searches(tile, kOrderCell * radius);
 }
 
 PhotonMapIntegrator::Added PhotonMapIntegrator::add_photons(
@@ -187,31 +199,52 @@ Picture PhotonMapIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
   const double emitted =
       static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
-  return estimator_.picture(tiles_, settings_,
-                            static_cast<float>(buffers_.total_power() / emitted));
+  return picture(static_cast<float>(buffers_.total_power() / emitted));
+}
+
+Picture PhotonMapIntegrator::picture(float scale) {
+  Picture picture = Picture::black(settings_.width, settings_.height);
+  tiles_.for_each([] { return false; }, HitTiles::Keep::no,
+                  [&](const HitTile& tile) {
+                    estimator_.paint(tile, settings_, scale, picture);
+                    return true;
+                  });
+  return picture;
 }
 
 void PhotonMapIntegrator::estimate() {
-  find_radii();
-  const Stopwatch stopwatch(statistics_.seconds["update"]);
+  const NearestPhotons::Request request = next_request();
+  map_.sort(cell_);
+  nearest_->clear_histogram();
   Estimator::Rejected rejected;
-  for (const HitTile& tile : tiles_) {
+  std::vector<float> radii2;
+  const auto estimate = [&](HitTile& tile) {
+    if (!tile.search_order) order_searches(tile);
+    {
+      const Stopwatch stopwatch(statistics_.seconds["nearest"]);
+      nearest_->find(tile, map_.grids(), request);
+    }
+    const Stopwatch stopwatch(statistics_.seconds["update"]);
     for (const PhotonGrid& grid : map_.grids()) {
       const Estimator::Rejected more = estimator_.gather(tile, grid);
       rejected.overflow += more.overflow;
       rejected.clamped += more.clamped;
     }
-  }
-  // With alpha = 1 the update divides by the disc's area and leaves the radius.
-  estimator_.update(tiles_, 1.0f);
+    // With alpha = 1 the update divides by the disc's area and leaves the radius.
+    estimator_.update(std::span(&tile, 1), 1.0f);
+    estimator_.add_radii(tile, radii2);
+    return true;
+  };
+  tiles_.for_each([] { return false; }, HitTiles::Keep::yes, estimate);
+  learn_cell();
   statistics_.rejected["overflow"] += rejected.overflow - rejected_.overflow;
   statistics_.rejected["clamped"] += rejected.clamped - rejected_.clamped;
   rejected_ = rejected;
   estimated_ = map_.photons();
-  record_radii();
+  record_radii(std::move(radii2));
 }
 
-void PhotonMapIntegrator::find_radii() {
+NearestPhotons::Request PhotonMapIntegrator::next_request() {
   const Stopwatch stopwatch(statistics_.seconds["nearest"]);
   NearestPhotons::Request request;
   request.wanted = settings_.nearest;
@@ -226,7 +259,15 @@ void PhotonMapIntegrator::find_radii() {
     const std::uint64_t sample = std::max<std::uint64_t>(statistics_.hit_points / kSample, 1);
     request.stride = static_cast<std::uint32_t>(sample);
     cell_ = 0.5f * std::sqrt(likely);
-    search(request);
+    map_.sort(cell_);
+    nearest_->clear_histogram();
+    tiles_.for_each([] { return false; }, HitTiles::Keep::no,
+                    [&](HitTile& tile) {
+                      if (!tile.search_order) order_searches(tile);
+                      nearest_->find(tile, map_.grids(), request);
+                      return true;
+                    });
+    learn_cell();
     request.guess2 = median_radius2(nearest_->histogram());
     request.spread = 2.0f;
     request.stride = 1;
@@ -236,26 +277,17 @@ void PhotonMapIntegrator::find_radii() {
     request.spread = 1.25f;
     cell_ *= static_cast<float>(std::sqrt(fewer));
   }
-  search(request);
+  return request;
 }
 
-void PhotonMapIntegrator::search(const NearestPhotons::Request& request) {
-  map_.sort(cell_);
-  nearest_->clear_histogram();
-  for (const HitTile& tile : tiles_) nearest_->find(tile, map_.grids(), request);
+void PhotonMapIntegrator::learn_cell() {
   const double in_each =
       static_cast<double>(settings_.nearest) / static_cast<double>(map_.grids().size());
   const float cell = cell_from_radii(nearest_->histogram(), in_each);
   if (cell > 0.0f) cell_ = cell;
 }
 
-void PhotonMapIntegrator::record_radii() {
-  std::vector<float> radii2;
-  for (const HitTile& tile : tiles_) {
-    for (const glm::vec4& statistic : tile.statistics.download<glm::vec4>(tile.hits)) {
-      if (statistic.w > 0.0f) radii2.push_back(statistic.w);  // else light seen
-    }
-  }
+void PhotonMapIntegrator::record_radii(std::vector<float> radii2) {
   const RadiusSummary summary = summarize_radii(std::move(radii2), scene_.frame.scale);
   statistics_.nearest_radius_min = summary.min;
   statistics_.nearest_radius_median = summary.median;
@@ -271,7 +303,7 @@ std::vector<image::Layer> PhotonMapIntegrator::layers(std::span<const LayerKind>
   }
   if (std::ranges::find(kinds, LayerKind::direct_emission) != kinds.end()) {
     layers.push_back(empty_layer(LayerKind::direct_emission, 0));
-    layers.back().values = estimator_.picture(tiles_, settings_, 0.0f).rgb;
+    layers.back().values = picture(0.0f).rgb;
   }
   return layers;
 }

@@ -13,6 +13,7 @@
 
 #include "estimator.hpp"
 #include "eye_tiles.hpp"
+#include "hit_tiles.hpp"
 #include "integrator.hpp"
 #include "layers.hpp"
 #include "nearest_photons.hpp"
@@ -48,11 +49,15 @@ class PhotonMapIntegrator final : public Integrator, public LayerSource {
   enum class Added { all, none, interrupted };
   Added add_photons(std::uint32_t pass, std::uint32_t first, std::uint32_t paths,
                     const std::function<bool()>& interrupted, Tally& tally);
+  /// Memory for estimates and, where tiles stay, their search order.
+  void prepare_searches();
+  void order_searches(HitTile& tile);
   void estimate();
-  void find_radii();
-  /// Sorts the map and makes the searches; they tell the size of the next one's cells.
-  void search(const NearestPhotons::Request& request);
-  void record_radii();
+  /// What all hit points shall search for, and cell_ for that; at first by a search of some.
+  NearestPhotons::Request next_request();
+  void learn_cell();  ///< from the last search
+  void record_radii(std::vector<float> radii2);
+  Picture picture(float scale);
   std::uint64_t fingerprint() const;
 
   Settings settings_;
@@ -68,7 +73,7 @@ class PhotonMapIntegrator final : public Integrator, public LayerSource {
   PathChunks chunks_;
   PhotonMap map_;
   Estimator estimator_;
-  std::vector<HitTile> tiles_;
+  HitTiles tiles_;
   std::optional<NearestPhotons> nearest_;  // once there are tiles
   float largest_radius_;                   // working units
   float cell_ = 0.0f;                      // of the map, idem

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hit_layers.hpp"
+#include "memory_shortage.hpp"
 #include "radius_summary.hpp"
 #include "region.hpp"
 #include "shared/random.h"
@@ -39,8 +40,9 @@ PpmIntegrator::PpmIntegrator(const Settings& settings, const scene::Scene& scene
       tracer_(device, table_, traits_, capacities_.photons, capacities_.paths),
       grid_(device, scene.bounds_min, scene.bounds_max, capacities_.photons, 0,
             capacities_.grid_entries),
-      estimator_(device, table_, traits_, tile_capacity(settings, device)),
+      estimator_(device, table_, traits_, tile_capacity(settings, device.max_storage_bytes())),
       batch_(device, tracer_, grid_, estimator_),
+      tiles_(device, table_, settings, log),
       chunks_(tracer_, static_cast<std::uint32_t>(
                            std::min(settings.photons_per_pass, tracer_.path_capacity()))),
       batch_limit_(capacities_.passes) {
@@ -62,48 +64,76 @@ void PpmIntegrator::look_from(const scene::Camera& camera) {
   buffers_.look_from(settings_, traits_, device_);
   tiles_.clear();
   probes_.clear();
-  in_steps_ = false;
+  in_steps_ = pilot_is_held_ = false;
   statistics_ = statistics_.of_scene();
 }
 
 bool PpmIntegrator::trace_eye_paths(const std::function<bool()>& interrupted) {
   const Stopwatch stopwatch(statistics_.seconds["eye"]);
-  const EyeKernels& kernels = eye_kernels_.get(traits_);
-  return trace_eye_tiles(device_, kernels, table_, settings_, interrupted, tiles_, statistics_);
+  return tiles_.trace(eye_kernels_.get(traits_), interrupted, statistics_);
 }
 
 bool PpmIntegrator::find_initial_radii(const std::function<bool()>& interrupted) {
   const gpu::Region region(device_, "pilot");
   const double start = clock_seconds();
+  std::vector<float> radii2;
+  try {
+    if (!tiles_.are_traced_anew()) {
+      if (!find_radii_of(tiles_.all(), interrupted)) return false;
+      radii2 = estimator_.prepare_searches(tiles_.all());
+      for (const HitTile& tile : tiles_.all()) estimator_.reserve_pixels(tile.pixels);
+    }
+  } catch (const gpu::MemoryShortage& shortage) {
+    tiles_.trace_anew(shortage);
+  }
+  if (tiles_.are_traced_anew()) {
+    radii2.clear();
+    estimator_.clear_radii();
+    const auto find = [&](HitTile& tile) {
+      if (!find_radii_of(std::span(&tile, 1), interrupted)) return false;
+      estimator_.add_radii(tile, radii2);
+      return true;
+    };
+    if (!tiles_.for_each(interrupted, HitTiles::Keep::yes, find)) return false;
+    pilot_is_held_ = false;
+  }
+  record_initial_radii(std::move(radii2));
+  statistics_.seconds["pilot"] = clock_seconds() - start;
+  return true;
+}
+
+bool PpmIntegrator::find_radii_of(std::span<const HitTile> tiles,
+                                  const std::function<bool()>& interrupted) {
   const bool automatic = settings_.radius_mode == RadiusMode::automatic;
   const float fixed = settings_.radius_mode == RadiusMode::fixed
                           ? static_cast<float>(settings_.radius * scene_.frame.scale)
                           : 0.0f;
   const float footprints = settings_.radius_mode == RadiusMode::footprint ? kFootprints : 0.0f;
-  for (const HitTile& tile : tiles_) estimator_.set_radii(tile, fixed, footprints);
-  if (automatic && !run_pilot(interrupted)) return false;
-  record_initial_radii(estimator_.prepare_searches(tiles_));
-  statistics_.seconds["pilot"] = clock_seconds() - start;
-  return true;
+  for (const HitTile& tile : tiles) estimator_.set_radii(tile, fixed, footprints);
+  return !automatic || run_pilot(tiles, interrupted);
 }
 
-bool PpmIntegrator::run_pilot(const std::function<bool()>& interrupted) {
+bool PpmIntegrator::run_pilot(std::span<const HitTile> tiles,
+                              const std::function<bool()>& interrupted) {
   // The pilot's photons are a set of their own: radii must not depend on the photons that are
   // estimated with them. All rounds see the same ones, as many as a pass has.
-  Pilot pilot(device_, traits_of(scene_), tiles_);
+  Pilot pilot(device_, traits_of(scene_), tiles);
   float radius = kLargestRadius * buffers_.constants().bounding_radius;
   std::uint64_t undecided = 0;
-  bool whole = false;  // all photons are in the grid
+  bool whole = pilot_is_held_;  // all photons are in the grid
   for (std::uint32_t index = 0; index < kPilotRounds; ++index, radius *= 0.5f) {
     const Pilot::Round round{index, index + 1 == kPilotRounds, radius};
     if (whole) {
       if (interrupted()) return false;
-      undecided = decide_again(pilot, round, undecided);
+      // The grid's cells may be smaller than the first round's.
+      const std::uint64_t searches = index > 0 ? undecided : tracer_.photon_count();
+      undecided = decide_again(pilot, round, searches);
     } else {
       const auto use = [&] {
         if (interrupted()) return false;
         whole = chunks_.paths() >= settings_.photons_per_pass;
         if (whole) {
+          pilot_is_held_ = true;
           undecided = *pilot.decide(grid_, round, false);
         } else {
           pilot.count(grid_, round);
@@ -134,8 +164,17 @@ Picture PpmIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
   const double emitted =
       static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
-  return estimator_.picture(tiles_, settings_,
-                            static_cast<float>(buffers_.total_power() / emitted));
+  return picture(static_cast<float>(buffers_.total_power() / emitted));
+}
+
+Picture PpmIntegrator::picture(float scale) {
+  Picture picture = Picture::black(settings_.width, settings_.height);
+  tiles_.for_each([] { return false; }, HitTiles::Keep::no,
+                  [&](const HitTile& tile) {
+                    estimator_.paint(tile, settings_, scale, picture);
+                    return true;
+                  });
+  return picture;
 }
 
 void PpmIntegrator::record_initial_radii(std::vector<float> radii2) {
@@ -153,7 +192,7 @@ std::vector<image::Layer> PpmIntegrator::layers(std::span<const LayerKind> kinds
   }
   if (std::ranges::find(kinds, LayerKind::direct_emission) != kinds.end()) {
     layers.push_back(empty_layer(LayerKind::direct_emission, 0));
-    layers.back().values = estimator_.picture(tiles_, settings_, 0.0f).rgb;
+    layers.back().values = picture(0.0f).rgb;
   }
   return layers;
 }

@@ -9,6 +9,7 @@
 
 #include "estimator.hpp"
 #include "eye_tiles.hpp"
+#include "hit_tiles.hpp"
 #include "integrator.hpp"
 #include "layers.hpp"
 #include "pass_batch.hpp"
@@ -42,7 +43,9 @@ class PpmIntegrator final : public Integrator, public LayerSource {
  private:
   bool trace_eye_paths(const std::function<bool()>& interrupted);
   bool find_initial_radii(const std::function<bool()>& interrupted);
-  bool run_pilot(const std::function<bool()>& interrupted);
+  /// Of these tiles. Returns false when interrupted.
+  bool find_radii_of(std::span<const HitTile> tiles, const std::function<bool()>& interrupted);
+  bool run_pilot(std::span<const HitTile> tiles, const std::function<bool()>& interrupted);
   /// A further round of the pilot among the photons that the grid holds, for so many hit points.
   std::uint64_t decide_again(Pilot& pilot, const Pilot::Round& round, std::uint64_t searches);
   /// Traces all paths of a pass in chunks that fit, and calls `use` with the photons of each in the
@@ -61,6 +64,11 @@ class PpmIntegrator final : public Integrator, public LayerSource {
                                              const std::function<bool()>& interrupted);
   /// One pass under the host's eyes, in chunks that fit and with searches of any length.
   bool advance_in_steps(float cell, const std::function<bool()>& interrupted);
+  /// The same tile by tile, where they are traced anew; finished once the first one is.
+  bool advance_tile_by_tile(float cell, const std::function<bool()>& interrupted);
+  /// Their histogram from what is kept, where tiles are traced anew.
+  void measure_kept_radii();
+  Picture picture(float scale);
   /// From R^2 of all hit points, in the working frame.
   void record_initial_radii(std::vector<float> radii2);
 
@@ -70,9 +78,9 @@ class PpmIntegrator final : public Integrator, public LayerSource {
   /// Where the statistics of a pixel's hit point are.
   struct Probe {
     std::size_t tile = 0;
-    std::uint32_t slot = 0;
+    std::uint64_t slot = 0;  ///< of the tile; its place, where tiles are traced anew
   };
-  std::optional<Probe> find_probe(std::uint32_t x, std::uint32_t y) const;
+  std::optional<Probe> find_probe(std::uint32_t x, std::uint32_t y);
 
   Settings settings_;
   const scene::Scene& scene_;
@@ -89,10 +97,11 @@ class PpmIntegrator final : public Integrator, public LayerSource {
   PhotonGrid grid_;
   Estimator estimator_;
   PassBatch batch_;
-  std::vector<HitTile> tiles_;
+  HitTiles tiles_;
   PathChunks chunks_;
-  std::uint32_t batch_limit_;  // passes recorded at a time, at most
-  bool in_steps_ = false;      // the next pass: its searches are too long for a batch
+  bool pilot_is_held_ = false;  // all its photons are the tracer's last
+  std::uint32_t batch_limit_;   // passes recorded at a time, at most
+  bool in_steps_ = false;       // the next pass: its searches are too long for a batch
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<Probe>> probes_;  // by x, y
   Statistics statistics_;
 };

@@ -50,6 +50,10 @@ std::uint64_t PpmIntegrator::advance_up_to(std::uint64_t passes,
 
 std::optional<std::uint32_t> PpmIntegrator::advance_lit(std::uint64_t passes, float cell,
                                                         const std::function<bool()>& interrupted) {
+  if (tiles_.are_traced_anew()) {
+    if (!advance_tile_by_tile(cell, interrupted)) return std::nullopt;
+    return 1;
+  }
   while (const std::uint32_t size = batch_size(passes, cell)) {
     const std::optional<std::uint32_t> made = advance_batch(size, cell, interrupted);
     if (!made || *made > 0) return made;
@@ -68,7 +72,7 @@ std::uint32_t PpmIntegrator::batch_size(std::uint64_t passes, float cell) const 
 std::optional<std::uint32_t> PpmIntegrator::advance_batch(
     std::uint32_t passes, float cell, const std::function<bool()>& interrupted) {
   const PassBatch::Result result =
-      batch_.make(tiles_,
+      batch_.make(tiles_.all(),
                   {static_cast<std::uint32_t>(statistics_.passes), passes,
                    static_cast<std::uint32_t>(settings_.photons_per_pass),
                    static_cast<float>(settings_.alpha), cell},
@@ -96,7 +100,7 @@ std::optional<std::uint32_t> PpmIntegrator::advance_batch(
 bool PpmIntegrator::advance_in_steps(float cell, const std::function<bool()>& interrupted) {
   Tally tally;
   const auto gather = [&] {
-    for (const HitTile& tile : tiles_) {
+    for (const HitTile& tile : tiles_.all()) {
       if (interrupted()) return false;
       const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
       tally.overflow += rejected.overflow;
@@ -108,12 +112,49 @@ bool PpmIntegrator::advance_in_steps(float cell, const std::function<bool()>& in
   };
   const auto pass = static_cast<std::uint32_t>(statistics_.passes);
   if (!for_each_chunk(PPM_STREAM_PHOTON, pass, cell, interrupted, gather)) {
-    estimator_.clear_sums(tiles_);
+    estimator_.clear_sums(tiles_.all());
     return false;
   }
-  estimator_.update(tiles_, static_cast<float>(settings_.alpha));
+  estimator_.update(tiles_.all(), static_cast<float>(settings_.alpha));
   tally.add_to(statistics_);
   in_steps_ = false;
+  return true;
+}
+
+bool PpmIntegrator::advance_tile_by_tile(float cell, const std::function<bool()>& interrupted) {
+  const auto pass = static_cast<std::uint32_t>(statistics_.passes);
+  Tally tally;
+  bool first = true, whole = false;  // this tile; all photons are in the grid
+  const auto stop = [&] { return first && interrupted(); };
+  estimator_.clear_radii();
+  const auto advance = [&](HitTile& tile) {
+    estimator_.order_searches(tile, cell);
+    Tally photons;
+    const auto gather = [&] {
+      const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
+      tally.overflow += rejected.overflow;
+      tally.clamped += rejected.clamped;
+      photons.photons_stored += tracer_.photon_count();
+      photons.add(tracer_.counters());
+      return true;
+    };
+    if (whole) {
+      gather();
+    } else {
+      const auto chunks = for_each_chunk(PPM_STREAM_PHOTON, pass, cell, stop, gather);
+      if (!chunks) return false;
+      whole = *chunks == 1;
+      if (first) tally += photons;  // every tile sees the same
+    }
+    estimator_.update_and_add_radii(tile, static_cast<float>(settings_.alpha));
+    first = false;
+    return true;
+  };
+  if (!tiles_.for_each(stop, HitTiles::Keep::yes, advance)) {
+    measure_kept_radii();
+    return false;
+  }
+  tally.add_to(statistics_);
   return true;
 }
 

@@ -93,9 +93,10 @@ std::vector<image::Layer> surface_layers(gpu::Device& device, const gpu::Binding
         }
       }
     }
+    return true;
   };
-  for_each_eye_tile(
-      device, kernels, scene, own, [] { return false; }, add);
+  EyeTiles(device, kernels, scene, own, EyeTiles::Shortage::makes_tiles_smaller)
+      .for_each([] { return false; }, add);
   return layers;
 }
 
