@@ -88,13 +88,13 @@ render::MemoryFit fit_or_refuse(const std::string& file, const render::MemoryDem
                     render::size_text(bytes), render::describe_peak(plan), limit),
         remedy);
   };
-  if (limits.budget) {
+  if (limits.budget && plan.peak() > *limits.budget) {
     refuse("--memory-budget", plan.peak(),
            fmt::format("may take {}", render::size_text(*limits.budget)),
            ", or raise --memory-budget");
   }
   const std::uint64_t on_host = limits.device ? plan.host_peak() : plan.peak();
-  if (on_host > limits.machine) {
+  if (!limits.budget && on_host > limits.machine) {
     refuse("memory", on_host,
            fmt::format("the machine has {} left", render::size_text(limits.machine)),
            ", or go ahead with a --memory-budget");

@@ -237,8 +237,8 @@ void declare_lights(Declarer& declare, RenderOptions& options) {
 
 void declare_memory(Declarer& declare, RenderOptions& options) {
   declare.text("--memory-budget", "SIZE",
-               "memory that all together may take, such as 4G; a scene that needs\n"
-               "more is refused (default what the machine has left)",
+               "memory that all together may take, such as 4G: where that is short less\n"
+               "is held at a time (default what machine and device have left)",
                [&](const std::string& value) {
                  options.memory_budget = parse_size(value);
                  if (!options.memory_budget) {

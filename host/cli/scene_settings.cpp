@@ -79,9 +79,8 @@ render::Settings fitting_settings(const scene::Scene& scene, const render::Setti
   const render::MemoryFit fit = fit_or_refuse(scene.file, demand, settings, limits, Known::all);
   const std::string change = render::describe_change(demand, settings, fit.settings);
   if (!change.empty()) {
-    const std::uint64_t most = limits.budget   ? *limits.budget
-                               : limits.device ? std::min(*limits.device, limits.machine)
-                                               : limits.machine;
+    const std::uint64_t most =
+        std::min(limits.budget.value_or(limits.machine), limits.device.value_or(UINT64_MAX));
     log.tell(fmt::format("{}, so that it fits {}", change, render::size_text(most)));
   }
   log.note(fmt::format("memory: up to {}, of which {} on the device ({})",

@@ -33,8 +33,8 @@ std::uint64_t excess(const MemoryPlan& plan, const MemoryLimits& limits) {
       add(host + device, *limits.budget);
     } else {
       add(limits.device ? host : host + device, limits.machine);
-      if (limits.device) add(device, *limits.device);
     }
+    if (limits.device) add(device, *limits.device);
   }
   return sum;
 }
@@ -125,8 +125,8 @@ std::uint64_t allowance(const MemoryPlan& plan, Phase phase, const MemoryLimits&
   const std::uint64_t host = plan.held(phase, false);
   const std::uint64_t all = limits.budget.value_or(limits.machine);
   const std::uint64_t shared = all > host ? all - host : 0;
-  if (limits.budget) return shared;
-  return limits.device ? *limits.device : shared;
+  if (!limits.device) return shared;
+  return limits.budget ? std::min(shared, *limits.device) : *limits.device;
 }
 
 std::string grouped(std::uint64_t number) {

@@ -14,7 +14,7 @@ namespace ppm::render {
 
 /// What a rendering may take.
 struct MemoryLimits {
-  std::optional<std::uint64_t> budget;  ///< --memory-budget: in all, instead of what there is
+  std::optional<std::uint64_t> budget;  ///< --memory-budget: in all, instead of the machine's
   std::uint64_t machine = 0;            ///< what the machine has left
   /// Of a device with memory of its own; nothing: it shares the machine's, or is not known yet.
   std::optional<std::uint64_t> device;

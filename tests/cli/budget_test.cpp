@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
@@ -93,6 +95,26 @@ TEST_F(CliBudget, ResumedUnderAnotherBudgetItIsTheSamePicture) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_NE(resumed.err.find("so that it fits 230 MiB"), std::string::npos) << resumed.err;
   EXPECT_TRUE(file_text(folder_ / "o.pfm") == expected);
+}
+
+// Others took the memory that the device had: when the photons' buffers are made, and when the eye
+// paths' are.
+TEST_F(CliBudget, AllocationsThatFailCostPiecesAndNoPicture) {
+  const std::string expected = picture({});
+  for (const char* const fault : {"vkAllocateMemory 20 -2", "vkAllocateMemory 42 -2"}) {
+    SCOPED_TRACE(fault);
+    std::filesystem::remove(folder_ / "o.pfm");
+    const auto with_layer = [&] {
+      setenv("VK_ADD_LAYER_PATH", PPM_TEST_LAYER_FOLDER, 1);
+      setenv("VK_INSTANCE_LAYERS", "VK_LAYER_PPM_VK_test", 1);
+      setenv("PPM_TEST_LAYER_FAULT", fault, 1);
+    };
+    const Result result = Program(words({}), with_layer).finish();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("warning: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("the rendering goes on with less"), std::string::npos) << result.err;
+    EXPECT_TRUE(file_text(folder_ / "o.pfm") == expected);
+  }
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-
 namespace ppm::tests {
 namespace {
 
@@ -115,6 +114,17 @@ TEST(MemoryFit, WhatIsTooMuchForTheHostIsNotHelpedByTheDevice) {
   const std::uint64_t host = demand.plan(settings).host_peak();
   EXPECT_FALSE(render::fit_memory(demand, settings, {std::nullopt, host / 2, 64 * kGiB}).fits);
   EXPECT_TRUE(render::fit_memory(demand, settings, {std::nullopt, host, 64 * kGiB}).fits);
+}
+
+// A budget for all is none for the device, which has what it has.
+TEST(MemoryFit, ABudgetDoesNotMakeADeviceLarger) {
+  const MemoryDemand demand = demand_of(limits_of_gpu());
+  const render::Settings settings;
+  const std::uint64_t usual = demand.plan(settings).device_peak();
+  const MemoryFit fit = render::fit_memory(demand, settings, {64 * kGiB, 0, usual - 1});
+  EXPECT_TRUE(fit.fits);
+  EXPECT_LT(fit.plan.device_peak(), usual);
+  EXPECT_LT(fit.settings.eye_allowance, usual);
 }
 
 TEST(MemoryFit, SaysWhatItChanged) {
