@@ -122,7 +122,7 @@ TEST(MemoryPlan, FollowsTheMethod) {
   const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
   EXPECT_EQ(bytes_of(plan_of({}, settings), "film"), 72 * pixels);
   settings.width = settings.height = 32768;
-  const std::string film = refusal({}, settings, {4 * kGiB, 0, 0});
+  const std::string film = refusal({}, settings, {4 * kGiB, 0, std::nullopt});
   EXPECT_TRUE(contains(film, "--width ")) << film;
 }
 
@@ -156,7 +156,8 @@ TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   const scene::SceneSize triangles{.triangles = 50000000};
   const render::Settings usual;
   EXPECT_EQ(refusal(triangles, usual, {std::nullopt, kPlenty, std::nullopt}), "");
-  EXPECT_EQ(refusal(triangles, usual, {100 * kGiB, 0, 0}), "");  // who sets a budget knows best
+  EXPECT_EQ(refusal(triangles, usual, {100 * kGiB, 0, std::nullopt}),
+            "");  // who sets a budget knows best
   const std::string over = refusal(triangles, usual, {4 * kGiB, kPlenty, std::nullopt});
   EXPECT_TRUE(over.starts_with("a.glb: --memory-budget: a rendering takes ")) << over;
   EXPECT_TRUE(contains(over, "triangles ")) << over;
@@ -167,16 +168,17 @@ TEST(MemoryBudget, RefusalsNameTheLimitTheLargestPartsAndARemedy) {
   const std::string device = refusal(triangles, usual, {std::nullopt, kPlenty, kGiB});
   EXPECT_TRUE(contains(device, "the device has 1 GiB left")) << device;
 
-  const std::string textures = refusal({.texture_bytes = 8 * kGiB}, usual, {4 * kGiB, 0, 0});
+  const std::string textures =
+      refusal({.texture_bytes = 8 * kGiB}, usual, {4 * kGiB, 0, std::nullopt});
   EXPECT_TRUE(contains(textures, "scale textures down")) << textures;
   render::Settings settings;
   settings.width = settings.height = 32768;
-  const std::string picture = refusal({}, settings, {4 * kGiB, 0, 0});
+  const std::string picture = refusal({}, settings, {4 * kGiB, 0, std::nullopt});
   EXPECT_TRUE(contains(picture, "--width ")) << picture;
   render::Settings map;
   map.integrator = "pm";
   map.map_photons = 20000000;
-  const std::string photons = refusal({}, map, {kGiB / 2, 0, 0});
+  const std::string photons = refusal({}, map, {kGiB / 2, 0, std::nullopt});
   EXPECT_TRUE(contains(photons, "photon map ")) << photons;
   EXPECT_TRUE(contains(photons, "--map-photons ")) << photons;
 }
