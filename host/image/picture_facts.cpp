@@ -3,6 +3,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "failure.hpp"
 
@@ -15,6 +17,15 @@ constexpr const char* kRemedy = "name a checkpoint or an .exr of ppm-vk";
 }  // namespace
 
 PictureFacts read_facts(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) {
+    throw Failure(file.string(), "", error ? error.message() : "there is no such file", kRemedy);
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    const bool is_folder = std::filesystem::is_directory(status);
+    throw Failure(file.string(), "", is_folder ? "is a folder" : "is not a regular file", kRemedy);
+  }
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
   if (!input) throw Failure(file.string(), "cannot read the picture", OIIO::geterror(), kRemedy);
   const OIIO::ImageSpec& spec = input->spec();

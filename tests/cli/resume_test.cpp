@@ -234,6 +234,11 @@ TEST_F(CliResume, InfoTellsWhatFilesHold) {
   expect_refused(run({"info", path("s.glb")}), 1, "is no checkpoint of ppm-vk");
   write_text(folder_ / "broken.exr", "EXR?");
   expect_refused(run({"info", path("broken.exr")}), 1, "broken.exr");
+  expect_refused(run({"info", path("absent.exr")}), 1, "absent.exr: No such file or directory");
+  std::filesystem::create_directory(folder_ / "folder.exr");
+  expect_refused(run({"info", path("folder.exr")}), 1, "folder.exr: is a folder");
+  ASSERT_EQ(mkfifo(path("pipe.exr").c_str(), 0600), 0);  // whoever opened it would wait
+  expect_refused(run({"info", path("pipe.exr")}), 1, "pipe.exr: is not a regular file");
   expect_refused(run({"info"}), 2, "no file is given");
 }
 
