@@ -116,6 +116,7 @@ Pose flown(const Pose& pose, const glm::dvec3& by) {
 }
 
 Pose widened(const Pose& pose, double factor) {
+  if (pose.half_height) return pose;
   Pose result = pose;
   const double half = std::atan(factor * std::tan(0.5 * radians(pose.fov)));
   result.fov = std::clamp(2.0 * half * 180.0 / std::numbers::pi, kNarrowest, kWidest);

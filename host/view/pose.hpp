@@ -20,6 +20,8 @@ struct Pose {
   double distance() const;     ///< of the target
   glm::dvec3 forward() const;  ///< unit
   glm::dvec3 right() const;    ///< idem
+
+  bool operator==(const Pose&) const = default;
 };
 
 /// Of a camera as it is rendered. It turns about the vertical unless it is tilted against it. Where

@@ -1,8 +1,14 @@
 #include "viewer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "controls.hpp"
 #include "failure.hpp"
@@ -24,10 +30,10 @@ void print(const Line& line) {
   std::fflush(stream);
 }
 
-/// The painter at work; it ends with this object.
-class Thread {
+/// It ends with this object.
+class PainterThread {
  public:
-  Thread(Painter& painter, Mailbox& mailbox)
+  PainterThread(Painter& painter, Mailbox& mailbox)
       : mailbox_(mailbox), thread_([&] {
           try {
             painter.run();
@@ -35,12 +41,12 @@ class Thread {
             mailbox.fail(std::current_exception());
           }
         }) {}
-  ~Thread() {
+  ~PainterThread() {
     mailbox_.quit();
     thread_.join();
   }
-  Thread(const Thread&) = delete;
-  Thread& operator=(const Thread&) = delete;
+  PainterThread(const PainterThread&) = delete;
+  PainterThread& operator=(const PainterThread&) = delete;
 
  private:
   Mailbox& mailbox_;
@@ -133,13 +139,17 @@ class Viewer {
     changed_ = true;
   }
 
+  /// What leaves the camera where it is (a wheel that is tilted, a field of view that cannot become
+  /// wider) costs no pass.
   void go(const Pose& pose) {
+    moved_ = moved_ || pose != pose_;
     pose_ = pose;
-    moved_ = true;
   }
 
   void go_back() {
+    if (!ordered_pose_ && !moved_) return;
     pose_ = stance_.pose;
+    ordered_pose_.reset();
     moved_ = false;
     camera_number_ = mailbox_.go_to(subject_.settings.camera);
     changed_ = true;
@@ -152,9 +162,11 @@ class Viewer {
   /// Where the pose is one that `render` would refuse, it stays as it was.
   void order_camera() {
     moved_ = false;
+    const Pose pose = rounded_pose();
+    if (pose == ordered_pose_) return;
     try {
-      camera_number_ = mailbox_.go_to(stance_.camera_of(rounded_pose()));
-      ordered_pose_ = pose_;
+      camera_number_ = mailbox_.go_to(stance_.camera_of(pose));
+      ordered_pose_ = pose;
     } catch (const Failure&) {
       pose_ = ordered_pose_.value_or(stance_.pose);
     }
@@ -186,8 +198,8 @@ class Viewer {
   Mailbox& mailbox_;
   glm::uvec2 picture_;  // its size
   Pose pose_;
-  std::optional<Pose> ordered_pose_;  // the last one that was no one's refusal
-  bool moved_ = false;                // since the last order
+  std::optional<Pose> ordered_pose_;  // of the last order; nothing: the settings' own camera
+  bool moved_ = false;                // since then
   std::uint64_t camera_number_ = 0;   // of the last order
   Status status_;
   Mouse mouse_;
@@ -203,7 +215,7 @@ render::Outcome view(const Desktop& desktop, render::Integrator& integrator, con
   Mailbox mailbox(&Desktop::wake);
   Viewer viewer(desktop, subject, stance, mailbox);
   Painter painter(integrator, subject, mailbox);
-  const Thread thread(painter, mailbox);
+  const PainterThread thread(painter, mailbox);
   viewer.run([&] { return interruption.requested(); });
   return interruption.requested() ? render::Outcome::interrupted : render::Outcome::complete;
 }

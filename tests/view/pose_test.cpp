@@ -123,6 +123,8 @@ TEST(ViewPose, WideningScalesWhatIsSeen) {
   EXPECT_NEAR(seen_at(widened(pose, 2.0), aside).x, 0.5 * seen_at(pose, aside).x, 1e-12);
   EXPECT_LT(widened(pose, 1e9).fov, 180.0);
   EXPECT_GT(widened(pose, 1e-9).fov, 0.0);
+  const Pose orthographic = poses().back();
+  EXPECT_TRUE(widened(orthographic, 2.0) == orthographic);
 }
 
 /// A square of edge 2 across Z in the working frame, which is moved and scaled.

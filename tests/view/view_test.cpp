@@ -161,7 +161,11 @@ TEST_F(View, MovedCameraIsThePrintedOne) {
   ASSERT_TRUE(screen_.find_window());
   ASSERT_TRUE(screen_.wait_for_title("3 of 3 passes"));
   save(program);
-  const std::string first = file_text(folder_ / "a.png");
+  const std::string first = file_text(folder_ / "a.png"), radiance = file_text(folder_ / "a.exr");
+  screen_.press(6);  // tilts the wheel, which moves nothing
+  screen_.release(6);
+  save(program);
+  EXPECT_TRUE(file_text(folder_ / "a.exr") == radiance);
 
   screen_.drag(1, {80, 60}, {100, 50});
   screen_.drag(3, {80, 60}, {70, 66});
