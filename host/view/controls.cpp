@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace ppm::view {
 namespace {

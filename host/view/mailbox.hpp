@@ -11,11 +11,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glm/glm.hpp"
 #include "image.hpp"
 #include "integrator.hpp"
+#include "scene.hpp"
 
 namespace ppm::view {
 

@@ -1,7 +1,9 @@
 // The rendering's side of the viewer: passes, pictures and answers, on a thread of its own.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 

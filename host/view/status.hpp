@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "image.hpp"
 #include "mailbox.hpp"
 
 namespace ppm::view {
