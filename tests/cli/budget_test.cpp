@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
 
-#include "gltf_writer.hpp"
+#include "layer_environment.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "temporary_folder.hpp"
 
@@ -20,14 +20,7 @@ using Words = std::vector<std::string>;
 
 class CliBudget : public ::testing::Test {
  protected:
-  CliBudget() {
-    GltfWriter writer;
-    writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
-                writer.material(lambert(glm::dvec3(0.5))));
-    writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-    writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-    writer.write(folder_ / "s.glb");
-  }
+  CliBudget() { lit_floor().write(folder_ / "s.glb"); }
 
   std::string file(const char* name) const { return (folder_ / name).string(); }
   Words words(const Words& more) const {
@@ -104,12 +97,7 @@ TEST_F(CliBudget, AllocationsThatFailCostPiecesAndNoPicture) {
   for (const char* const fault : {"vkAllocateMemory 20 -2", "vkAllocateMemory 42 -2"}) {
     SCOPED_TRACE(fault);
     std::filesystem::remove(folder_ / "o.pfm");
-    const auto with_layer = [&] {
-      setenv("VK_ADD_LAYER_PATH", PPM_TEST_LAYER_FOLDER, 1);
-      setenv("VK_INSTANCE_LAYERS", "VK_LAYER_PPM_VK_test", 1);
-      setenv("PPM_TEST_LAYER_FAULT", fault, 1);
-    };
-    const Result result = Program(words({}), with_layer).finish();
+    const Result result = Program(words({}), [&] { load_layer(fault); }).finish();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("warning: "), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("the rendering goes on with less"), std::string::npos) << result.err;

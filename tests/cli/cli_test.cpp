@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "read_picture.hpp"
 #include "temporary_folder.hpp"
@@ -30,19 +31,9 @@ using Words = std::vector<std::string>;
 /// Passes that would take weeks: what ends before them did not wait for the rendering.
 constexpr std::uint64_t kEndless = 4000000000;
 
-/// A lamp over a floor, seen by a camera called "above".
-GltfWriter small_scene() {
-  GltfWriter writer;
-  const std::size_t grey = writer.material(lambert(glm::dvec3(0.5)));
-  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}), grey);
-  writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-  return writer;
-}
-
 class Cli : public ::testing::Test {
  protected:
-  Cli() { small_scene().write(scene_.path() / "s.glb"); }
+  Cli() { lit_floor().write(scene_.path() / "s.glb"); }
 
   std::string scene() const { return (scene_.path() / "s.glb").string(); }
   std::string out(std::string_view name) const { return (folder_.path() / name).string(); }
@@ -327,7 +318,7 @@ TEST_F(Cli, QuietSaysNothing) {
 }
 
 TEST_F(Cli, FileWithoutCameraIsFramedWithAWarning) {
-  GltfWriter writer = small_scene();
+  GltfWriter writer = lit_floor();
   writer.document().erase("cameras");
   for (auto& node : writer.document()["nodes"]) node.erase("camera");
   const TemporaryFolder other;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "read_picture.hpp"
 #include "temporary_folder.hpp"
@@ -18,19 +18,9 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A lamp over a floor.
-GltfWriter small_scene(double intensity) {
-  GltfWriter writer;
-  const std::size_t grey = writer.material(lambert(glm::dvec3(0.5)));
-  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}), grey);
-  writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), intensity);
-  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-  return writer;
-}
-
 class CompareCli : public ::testing::Test {
  protected:
-  CompareCli() { small_scene(10.0).write(folder_.path() / "s.glb"); }
+  CompareCli() { lit_floor().write(folder_.path() / "s.glb"); }
 
   std::string path(std::string_view name) const { return (folder_.path() / name).string(); }
 
@@ -113,7 +103,7 @@ TEST_F(CompareCli, GoesOnWhereItWasKilledAndReportsAll) {
   expect_one_error(run(small("0.4")), 1, "0.3 s instead of 0.4 s");
   expect_one_error(run(small("0.3", {"--spp", "1"})), 1, "spp 4 instead of 1");
   expect_one_error(run(small("0.3", {"--height", "20"})), 1, "holds another comparison");
-  small_scene(11.0).write(folder_.path() / "s.glb");
+  lit_floor(0.5, 11.0).write(folder_.path() / "s.glb");
   expect_one_error(run(small("0.3")), 1, "scene contents");
 }
 

@@ -1,8 +1,13 @@
 // A driver that fails in the middle of a rendering, as the test layer below the program makes it:
 // one line, exit code 1, picture and checkpoint as they were, nothing left behind in the driver.
 #include <cstdlib>
+#include <filesystem>
+#include <ostream>
+#include <set>
+#include <string>
 
 #include "kept_rendering.hpp"
+#include "layer_environment.hpp"
 
 namespace ppm::test {
 namespace {
@@ -42,9 +47,7 @@ TEST_F(DriverFaults, EndInALineAndCostNothingThatWasThere) {
     write_text(picture(), old_picture);
     std::filesystem::remove(folder_ / "report");
     const auto with_layer = [&] {
-      setenv("VK_ADD_LAYER_PATH", PPM_TEST_LAYER_FOLDER, 1);
-      setenv("VK_INSTANCE_LAYERS", "VK_LAYER_PPM_VK_test", 1);
-      setenv("PPM_TEST_LAYER_FAULT", ::testing::PrintToString(fault).c_str(), 1);
+      load_layer(::testing::PrintToString(fault).c_str());
       setenv("PPM_TEST_LAYER_REPORT", path("report").c_str(), 1);
     };
     const Result result =

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "small_disk.hpp"
 #include "temporary_folder.hpp"
@@ -28,14 +29,7 @@ constexpr double kMostSeconds = 10.0;
 
 class CliFiles : public ::testing::Test {
  protected:
-  CliFiles() {
-    GltfWriter writer;
-    const std::size_t grey = writer.material(lambert(glm::dvec3(0.5)));
-    writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}), grey);
-    writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-    writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-    writer.write(folder_ / "sound.glb");
-  }
+  CliFiles() { lit_floor().write(folder_ / "sound.glb"); }
 
   std::string path(std::string_view name) const { return (folder_ / name).string(); }
 

@@ -1,11 +1,15 @@
 // Renderings whose disk is full, and that are killed while it is: what was kept before stays sound,
 // and once there is space they go on to the same bytes.
+#include <signal.h>
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <random>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "kept_rendering.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "temporary_folder.hpp"
 
@@ -17,14 +17,7 @@ using Words = std::vector<std::string>;
 
 class CliInspect : public ::testing::Test {
  protected:
-  CliInspect() {
-    GltfWriter writer;
-    const std::size_t grey = writer.material(lambert(glm::dvec3(0.5)));
-    writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}), grey);
-    writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-    writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-    writer.write(folder_ / "s.glb");
-  }
+  CliInspect() { lit_floor().write(folder_ / "s.glb"); }
   std::string scene() const { return (folder_ / "s.glb").string(); }
 
   TemporaryFolder folder_;

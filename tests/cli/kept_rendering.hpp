@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "temporary_folder.hpp"
 
@@ -16,18 +16,9 @@ namespace ppm::test {
 
 using Words = std::vector<std::string>;
 
-inline GltfWriter lit_floor(double grey) {
-  GltfWriter writer;
-  writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
-              writer.material(lambert(glm::dvec3(grey))));
-  writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-  writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-  return writer;
-}
-
 class KeptRendering : public ::testing::Test {
  protected:
-  KeptRendering() { lit_floor(0.5).write(folder_ / "s.glb"); }
+  KeptRendering() { lit_floor().write(folder_ / "s.glb"); }
 
   std::string path(std::string_view name) const { return (folder_ / name).string(); }
   std::filesystem::path checkpoint() const { return place_ / "c"; }

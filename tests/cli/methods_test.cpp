@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_writer.hpp"
+#include "lit_floor.hpp"
 #include "program.hpp"
 #include "read_picture.hpp"
 #include "temporary_folder.hpp"
@@ -19,14 +19,7 @@ using Words = std::vector<std::string>;
 
 class CliMethods : public ::testing::Test {
  protected:
-  CliMethods() {
-    GltfWriter writer;
-    writer.mesh(quad({-1.0f, 0.0f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}),
-                writer.material(lambert(glm::dvec3(0.5))));
-    writer.point_light({0.0, 1.0, 0.0}, glm::dvec3(1.0), 10.0);
-    writer.camera("above", {0.0, 2.0, 0.5}, {0.0, 0.0, 0.0}, 0.8, 2.0);
-    writer.write(folder_ / "s.glb");
-  }
+  CliMethods() { lit_floor().write(folder_ / "s.glb"); }
 
   std::string file(const char* name) const { return (folder_ / name).string(); }
   Words words(const char* method, const Words& more) const {

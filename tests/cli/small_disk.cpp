@@ -10,7 +10,9 @@
 
 #include <array>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace ppm::test {
 namespace {

@@ -234,7 +234,8 @@ TEST_F(Faults, OnThePathsOfEveryMethodAreSurvivedByItsFiles) {
 #else
   constexpr std::size_t kSome = 5;
 #endif
-  // All of other methods than ppm take half a minute, and were survived.
+  // Every path of ppm and some of each other method's: all of these took half a minute, and were
+  // survived.
   const std::size_t stride = std::getenv("PPM_TEST_ALL_PATHS") ? 1 : kSome;
   const auto device = make_device();
   std::set<Path> seen;

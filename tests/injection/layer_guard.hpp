@@ -4,20 +4,19 @@
 #include <dlfcn.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "layer.hpp"
+#include "layer_environment.hpp"
 
 namespace ppm::test {
 
 class LayerGuard {
  public:
   LayerGuard() {
-    setenv("VK_ADD_LAYER_PATH", PPM_TEST_LAYER_FOLDER, 1);
-    setenv("VK_INSTANCE_LAYERS", "VK_LAYER_PPM_VK_test", 1);
+    load_layer();
     library_ = dlopen(PPM_TEST_LAYER_FILE, RTLD_NOW | RTLD_LOCAL);
     if (!library_) throw std::runtime_error(dlerror());
     calls_ = reinterpret_cast<decltype(&ppm_layer_calls)>(dlsym(library_, "ppm_layer_calls"));

@@ -11,16 +11,18 @@
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <tuple>
+#include <type_traits>
+#include <utility>
 
 namespace {
 
@@ -102,6 +104,7 @@ void report() {
   const char* const file = std::getenv("PPM_TEST_LAYER_REPORT");
   if (!file) return;
   const std::int64_t live = total_live();
+  const std::scoped_lock lock(tally().access);
   std::ofstream(file, std::ios::app) << "failed " << tally().failed << " live " << live << '\n';
 }
 
@@ -182,36 +185,59 @@ Link* link_of(const Info* info, VkStructureType type) {
   return nullptr;
 }
 
+/// What lies below this layer, as the loader tells it there; the link is moved on for the next
+/// layer. Nothing where the loader tells nothing.
+template <class Link, class Info>
+std::optional<Chain> chain_below(const Info* info, VkStructureType type) {
+  Link* const link = link_of<Link>(info, type);
+  if (!link) return std::nullopt;
+  auto*& below = link->u.pLayerInfo;
+  Chain chain;
+  chain.instance_address = below->pfnNextGetInstanceProcAddr;
+  if constexpr (std::is_same_v<Link, VkLayerDeviceCreateInfo>) {
+    chain.device_address = below->pfnNextGetDeviceProcAddr;
+  }
+  below = below->pNext;
+  return chain;
+}
+
+template <class Handle>
+void begin_chain(const char* call, Handle handle, Chain chain) {
+  note_life(call, 1);
+  const std::scoped_lock lock(chains_access);
+  chains[key_of(handle)] = std::move(chain);
+}
+
+template <class Function, class Handle>
+void end_chain(const char* call, Handle handle, const VkAllocationCallbacks* allocator) {
+  void* const key = key_of(handle);
+  reinterpret_cast<Function>(next(key, call))(handle, allocator);
+  note_life(call, -1);
+  const std::scoped_lock lock(chains_access);
+  chains.erase(key);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                const VkAllocationCallbacks* allocator,
                                                VkInstance* instance) {
   if (fails("vkCreateInstance")) return tally().fault.result;
-  auto* const link =
-      link_of<VkLayerInstanceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
-  if (!link) return VK_ERROR_INITIALIZATION_FAILED;
-  Chain chain;
-  chain.instance_address = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-  link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+  std::optional<Chain> chain =
+      chain_below<VkLayerInstanceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+  if (!chain) return VK_ERROR_INITIALIZATION_FAILED;
   const auto real = reinterpret_cast<PFN_vkCreateInstance>(
-      chain.instance_address(VK_NULL_HANDLE, "vkCreateInstance"));
+      chain->instance_address(VK_NULL_HANDLE, "vkCreateInstance"));
   const VkResult result = real(info, allocator, instance);
   if (result < 0) return result;
-  chain.instance = *instance;
-  const std::scoped_lock lock(chains_access);
-  chains[key_of(*instance)] = chain;
-  note_life("vkCreateInstance", 1);
+  chain->instance = *instance;
+  begin_chain("vkCreateInstance", *instance, std::move(*chain));
   return result;
 }
 
 VKAPI_ATTR void VKAPI_CALL destroy_instance(VkInstance instance,
                                             const VkAllocationCallbacks* allocator) {
   if (!instance) return;
-  void* const key = key_of(instance);
-  reinterpret_cast<PFN_vkDestroyInstance>(next(key, "vkDestroyInstance"))(instance, allocator);
-  note_life("vkDestroyInstance", -1);
+  end_chain<PFN_vkDestroyInstance>("vkDestroyInstance", instance, allocator);
   report();
-  const std::scoped_lock lock(chains_access);
-  chains.erase(key);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
@@ -219,30 +245,19 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
                                              const VkAllocationCallbacks* allocator,
                                              VkDevice* device) {
   if (fails("vkCreateDevice")) return tally().fault.result;
-  auto* const link =
-      link_of<VkLayerDeviceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
-  if (!link) return VK_ERROR_INITIALIZATION_FAILED;
-  Chain chain;
-  chain.instance_address = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-  chain.device_address = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
-  link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+  std::optional<Chain> chain =
+      chain_below<VkLayerDeviceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+  if (!chain) return VK_ERROR_INITIALIZATION_FAILED;
   const auto real = reinterpret_cast<PFN_vkCreateDevice>(next(key_of(physical), "vkCreateDevice"));
   const VkResult result = real(physical, info, allocator, device);
   if (result < 0) return result;
-  chain.device = *device;
-  const std::scoped_lock lock(chains_access);
-  chains[key_of(*device)] = chain;
-  note_life("vkCreateDevice", 1);
+  chain->device = *device;
+  begin_chain("vkCreateDevice", *device, std::move(*chain));
   return result;
 }
 
 VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCallbacks* allocator) {
-  if (!device) return;
-  void* const key = key_of(device);
-  reinterpret_cast<PFN_vkDestroyDevice>(next(key, "vkDestroyDevice"))(device, allocator);
-  note_life("vkDestroyDevice", -1);
-  const std::scoped_lock lock(chains_access);
-  chains.erase(key);
+  if (device) end_chain<PFN_vkDestroyDevice>("vkDestroyDevice", device, allocator);
 }
 
 PFN_vkVoidFunction instance_address(VkInstance instance, const char* name);
