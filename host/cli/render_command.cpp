@@ -14,7 +14,6 @@
 #include "failure.hpp"
 #include "fingerprint.hpp"
 #include "load_gltf.hpp"
-#include "memory_shortage.hpp"
 #include "scene_settings.hpp"
 
 namespace ppm::cli {
@@ -61,30 +60,6 @@ std::vector<render::PartHash> parts_of(const scene::Scene& scene,
   return parts;
 }
 
-constexpr unsigned kMostTries = 5;
-
-/// Others may have taken what the device had left: then with less and less of it. Changes the
-/// settings accordingly.
-std::unique_ptr<render::Integrator> make_integrator_that_fits(render::Settings& settings,
-                                                              const scene::Scene& scene,
-                                                              const RenderOptions& options,
-                                                              MemoryLimits limits,
-                                                              gpu::Device& device, Log& log) {
-  const unsigned threads = thread_count(options.threads);
-  for (unsigned tries = 1;; ++tries) {
-    try {
-      return render::make_integrator(settings, scene, device, log, threads);
-    } catch (const gpu::MemoryShortage& shortage) {
-      if (tries == kMostTries) throw;
-      const std::optional<render::Settings> less =
-          settings_with_less(scene, settings, options, limits, device);
-      if (!less) throw;
-      settings = *less;
-      log.warn(std::string(shortage.what()) + "; the rendering goes on with less at a time");
-    }
-  }
-}
-
 int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
   const Clock::time_point start = Clock::now();
   const render::Interruption interruption;
@@ -116,7 +91,7 @@ int render_scene(const RenderOptions& options, render::Checkpoint* resumed) {
   }
   settings = fitting_settings(scene, settings, options, limits, &device, log);
   const std::unique_ptr<render::Integrator> integrator =
-      make_integrator_that_fits(settings, scene, options, limits, device, log);
+      make_fitting_integrator(settings, scene, options, limits, device, log);
   scene::release_arrays(scene);
 
   render::Circumstances circumstances = circumstances_for(scene, options.load, device);

@@ -9,6 +9,7 @@
 #include "camera_choice.hpp"
 #include "failure.hpp"
 #include "machine_memory.hpp"
+#include "memory_shortage.hpp"
 #include "scene_traits.hpp"
 
 namespace ppm::cli {
@@ -36,6 +37,23 @@ render::MemoryDemand demand_of(const RenderOptions& options, const scene::SceneS
       !options.run.checkpoint.empty()};
   if (scene) demand.limits.layered_hits = render::traits_of(*scene).layers;
   return demand;
+}
+
+constexpr unsigned kMostTries = 5;
+
+/// Such as take three quarters of what these do on the device; nothing where that cannot be.
+std::optional<render::Settings> settings_with_less(const scene::Scene& scene,
+                                                   const render::Settings& settings,
+                                                   const RenderOptions& options,
+                                                   MemoryLimits limits, const gpu::Device& device) {
+  const render::MemoryDemand demand =
+      demand_of(options, scene::SceneSize::of(scene), &scene, &device);
+  limits.machine = limits.budget.value_or(limits.machine);
+  limits.budget.reset();
+  limits.device = demand.plan(settings).device_peak() / 4 * 3;
+  render::MemoryFit fit = render::fit_memory(demand, settings, limits);
+  if (!fit.fits) return std::nullopt;
+  return fit.settings;
 }
 
 }  // namespace
@@ -89,18 +107,24 @@ render::Settings fitting_settings(const scene::Scene& scene, const render::Setti
   return fit.settings;
 }
 
-std::optional<render::Settings> settings_with_less(const scene::Scene& scene,
-                                                   const render::Settings& settings,
-                                                   const RenderOptions& options,
-                                                   MemoryLimits limits, const gpu::Device& device) {
-  const render::MemoryDemand demand =
-      demand_of(options, scene::SceneSize::of(scene), &scene, &device);
-  limits.machine = limits.budget.value_or(limits.machine);
-  limits.budget.reset();
-  limits.device = demand.plan(settings).device_peak() / 4 * 3;
-  render::MemoryFit fit = render::fit_memory(demand, settings, limits);
-  if (!fit.fits) return std::nullopt;
-  return fit.settings;
+std::unique_ptr<render::Integrator> make_fitting_integrator(render::Settings& settings,
+                                                            const scene::Scene& scene,
+                                                            const RenderOptions& options,
+                                                            const MemoryLimits& limits,
+                                                            gpu::Device& device, Log& log) {
+  const unsigned threads = thread_count(options.threads);
+  for (unsigned tries = 1;; ++tries) {
+    try {
+      return render::make_integrator(settings, scene, device, log, threads);
+    } catch (const gpu::MemoryShortage& shortage) {
+      if (tries == kMostTries) throw;
+      const std::optional<render::Settings> less =
+          settings_with_less(scene, settings, options, limits, device);
+      if (!less) throw;
+      settings = *less;
+      log.warn(std::string(shortage.what()) + "; the rendering goes on with less at a time");
+    }
+  }
 }
 
 unsigned thread_count(unsigned asked_for) {

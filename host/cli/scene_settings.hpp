@@ -1,6 +1,10 @@
 // From options and a scene to what an integrator wants to know.
 #pragma once
 
+#include <memory>
+
+#include "device.hpp"
+#include "integrator.hpp"
 #include "log.hpp"
 #include "memory_budget.hpp"
 #include "options.hpp"
@@ -25,12 +29,13 @@ render::Settings fitting_settings(const scene::Scene& scene, const render::Setti
                                   const RenderOptions& options, MemoryLimits limits,
                                   const gpu::Device* device, const Log& log);
 
-/// The same with three quarters of what these settings take on the device; nothing where that
-/// cannot be.
-std::optional<render::Settings> settings_with_less(const scene::Scene& scene,
-                                                   const render::Settings& settings,
-                                                   const RenderOptions& options,
-                                                   MemoryLimits limits, const gpu::Device& device);
+/// An integrator with these settings. Others may have taken what the device had left: then with
+/// such as take less and less of it, which a warning tells and `settings` are afterwards.
+std::unique_ptr<render::Integrator> make_fitting_integrator(render::Settings& settings,
+                                                            const scene::Scene& scene,
+                                                            const RenderOptions& options,
+                                                            const MemoryLimits& limits,
+                                                            gpu::Device& device, Log& log);
 
 /// As asked for, or one for each core.
 unsigned thread_count(unsigned asked_for);

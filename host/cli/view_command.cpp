@@ -43,7 +43,7 @@ int view_command(const ViewOptions& view_options) {
   gpu::Device device(options.device);
   settings = fitting_settings(scene, settings, options, limits, &device, log);
   const std::unique_ptr<render::Integrator> integrator =
-      render::make_integrator(settings, scene, device, log, thread_count(options.threads));
+      make_fitting_integrator(settings, scene, options, limits, device, log);
   scene::release_arrays(scene);
 
   const render::Circumstances circumstances = circumstances_for(scene, options.load, device);

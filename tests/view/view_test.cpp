@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 #include <sstream>
 
 #include "gltf_writer.hpp"
 #include "integrator.hpp"
+#include "layer_environment.hpp"
 #include "program.hpp"
 #include "read_picture.hpp"
 #include "screen.hpp"
@@ -72,10 +74,14 @@ class View : public ::testing::Test {
     return words;
   }
 
-  Program view(Words words) const {
+  Program view(
+      Words words, const std::function<void()>& in_child = [] {}) const {
     words.insert(words.begin(), "view");
     const std::string display = screen_.display();
-    return Program(words, [&] { setenv("DISPLAY", display.c_str(), 1); });
+    return Program(words, [&] {
+      setenv("DISPLAY", display.c_str(), 1);
+      in_child();
+    });
   }
 
   /// Presses o until what is written has all three passes.
@@ -268,6 +274,25 @@ TEST_F(View, FailedSavesAreWarnedOf) {
   EXPECT_EQ(program.next_line(), "ppm-vk: wrote " + path("d/a.png") + " after 1 pass");
   screen_.key("Escape");
   EXPECT_EQ(program.finish().exit_code, 0);
+}
+
+// Others took the memory that the device had.
+TEST_F(View, AllocationsThatFailCostPiecesAndNoPicture) {
+  const char* const fault = "vkAllocateMemory 20 -2";  // while buffers for photons are made
+  Program program =
+      view(common({"--photons", "2000", "--passes", "3"}), [&] { load_layer(fault); });
+  ASSERT_TRUE(screen_.find_window());
+  EXPECT_TRUE(program.wait_for("warning: ") && program.wait_for("goes on with less at a time\n"));
+  EXPECT_TRUE(screen_.wait_for_title("3 of 3 passes"));
+  screen_.key("Escape");
+  EXPECT_EQ(program.finish().exit_code, 0);
+}
+
+// The device is lost in the rendering's thread, the line is the program's last.
+TEST_F(View, ALostDeviceEndsItInALine) {
+  const char* const fault = "vkQueueSubmit 20 -4";
+  Program program = view(common({"--photons", "2000"}), [&] { load_layer(fault); });
+  expect_one_error(program.finish(), 1, "vkQueueSubmit: VK_ERROR_DEVICE_LOST");
 }
 
 }  // namespace
