@@ -3,10 +3,11 @@
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
+#include <string>
 #include <string_view>
-#include <system_error>
 
 #include "failure.hpp"
+#include "input_file.hpp"
 
 namespace ppm::image {
 namespace {
@@ -17,15 +18,8 @@ constexpr const char* kRemedy = "name a checkpoint or an .exr of ppm-vk";
 }  // namespace
 
 PictureFacts read_facts(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) {
-    throw Failure(file.string(), "", error ? error.message() : "there is no such file", kRemedy);
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    const bool is_folder = std::filesystem::is_directory(status);
-    throw Failure(file.string(), "", is_folder ? "is a folder" : "is not a regular file", kRemedy);
-  }
+  const std::string why = why_unreadable(file);
+  if (!why.empty()) throw Failure(file.string(), "", why, kRemedy);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
   if (!input) throw Failure(file.string(), "cannot read the picture", OIIO::geterror(), kRemedy);
   const OIIO::ImageSpec& spec = input->spec();

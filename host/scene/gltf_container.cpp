@@ -7,6 +7,7 @@
 #include <span>
 
 #include "failure.hpp"
+#include "input_file.hpp"
 
 namespace ppm::scene::gltf {
 namespace {
@@ -92,15 +93,9 @@ bool leads_outside(const std::filesystem::path& path) {
 /// Opens what read_file reads. Returns an explanation or nothing.
 std::string open_file(const std::filesystem::path& file, std::uint64_t limit, std::ifstream& stream,
                       std::uint64_t& size) {
+  const std::string error = why_unreadable(file);
+  if (!error.empty()) return error;
   std::error_code code;
-  const std::filesystem::file_status status = std::filesystem::status(file, code);
-  if (!std::filesystem::exists(status)) {
-    const bool is_hidden =
-        code && code != std::errc::no_such_file_or_directory && code != std::errc::not_a_directory;
-    return is_hidden ? "cannot be read: " + code.message() : "there is no such file";
-  }
-  if (std::filesystem::is_directory(status)) return "is a folder, not a regular file";
-  if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
   stream.open(file, std::ios::binary);
   size = std::filesystem::file_size(file, code);
   if (!stream || code) return "cannot be opened for reading";

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "failure.hpp"
+#include "input_file.hpp"
 
 namespace ppm::scene {
 namespace {
@@ -40,10 +41,9 @@ std::string first_line(const std::string& text) {
 class EnvironmentFile {
  public:
   explicit EnvironmentFile(const fs::path& file) : file_(file.string()) {
+    const std::string why = why_unreadable(file);
+    if (!why.empty()) fail(why, "name a .hdr or .exr file that you may read");
     std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) fail("there is no such file", "check the name");
-    if (!fs::is_regular_file(status)) fail("is not a regular file", "name a .hdr or .exr file");
     bytes_ = fs::file_size(file, error);
     input_ = OIIO::ImageInput::create(lower_extension(file) == ".hdr" ? "hdr" : "openexr");
     if (!input_ || !input_->open(file_, spec_)) corrupt();

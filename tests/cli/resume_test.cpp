@@ -24,6 +24,12 @@ namespace {
 /// Passes that would take weeks.
 constexpr const char* kEndless = "4000000000";
 
+/// Without these, permissions bind root, too.
+void drop_rights() {
+  prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
+  prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
+}
+
 class CliResume : public KeptRendering {
  protected:
   /// One line for the error, besides those of progress, which has these words.
@@ -204,8 +210,6 @@ TEST_F(CliResume, WhatAVanishedFolderCannotTakeGoesElsewhere) {
 TEST_F(CliResume, AReadOnlyFileIsNotReplaced) {
   write_text(folder_ / "o.exr", "old");
   ASSERT_EQ(chmod(path("o.exr").c_str(), 0444), 0);
-  // Without this right permissions bind root, too.
-  const auto drop_rights = [] { prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE); };
   const Result result =
       Program(render({"-o", path("o.exr"), "--passes", kEndless}), drop_rights).finish();
   expect_refused(result, 1, "o.exr: cannot write");
@@ -234,11 +238,14 @@ TEST_F(CliResume, InfoTellsWhatFilesHold) {
   expect_refused(run({"info", path("s.glb")}), 1, "is no checkpoint of ppm-vk");
   write_text(folder_ / "broken.exr", "EXR?");
   expect_refused(run({"info", path("broken.exr")}), 1, "broken.exr");
-  expect_refused(run({"info", path("absent.exr")}), 1, "absent.exr: No such file or directory");
+  expect_refused(run({"info", path("absent.exr")}), 1, "absent.exr: there is no such file");
   std::filesystem::create_directory(folder_ / "folder.exr");
   expect_refused(run({"info", path("folder.exr")}), 1, "folder.exr: is a folder");
   ASSERT_EQ(mkfifo(path("pipe.exr").c_str(), 0600), 0);  // whoever opened it would wait
   expect_refused(run({"info", path("pipe.exr")}), 1, "pipe.exr: is not a regular file");
+  ASSERT_EQ(chmod(path("o.exr").c_str(), 0), 0);
+  const Result unreadable = Program({"info", path("o.exr")}, drop_rights).finish();
+  expect_refused(unreadable, 1, "o.exr: cannot be opened for reading: Permission denied");
   expect_refused(run({"info"}), 2, "no file is given");
 }
 
