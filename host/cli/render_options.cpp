@@ -347,6 +347,11 @@ void check_shared(const CLI::App& app, const RenderOptions& options) {
       throw CLI::ValidationError(name, "needs --env");
     }
   }
+  for (const auto& output : options.outputs) {
+    if (!options.load.environment.empty() && same_file(output, options.load.environment)) {
+      refuse("-o", output.string(), "a file of its own");
+    }
+  }
   check_verbosity(app);
   check_camera(options);
 }
@@ -375,12 +380,7 @@ void check_render(const CLI::App& app, RenderOptions& options) {
     throw CLI::ValidationError("-o", "no picture to write is given, such as -o out.exr");
   }
   check_layers(app, options);
-  if (app.count("--stats") > 0) {
-    if (options.stats.empty()) refuse("--stats", "", "a file name");
-    bool clash = same_file(options.stats, options.scene);
-    for (const auto& output : options.outputs) clash = clash || same_file(options.stats, output);
-    if (clash) refuse("--stats", options.stats.string(), "a file of its own");
-  }
+  if (app.count("--stats") > 0 && options.stats.empty()) refuse("--stats", "", "a file name");
   check_run(app, options);
   check_shared(app, options);
   options.run.words = words_of(app);

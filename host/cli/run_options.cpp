@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "image.hpp"
 
@@ -21,17 +22,21 @@ void interval(Declarer& declare, const char* name, double& seconds, const std::s
   });
 }
 
-/// A file of its own, which nothing else is written to or read from.
-void check_own(const char* option, const std::filesystem::path& file,
-               const RenderOptions& options) {
+/// That nothing else is read from or written to the files that are written beside the pictures.
+void check_files(const RenderOptions& options) {
   std::vector<std::filesystem::path> others = options.outputs;
   others.push_back(options.scene);
-  if (!options.stats.empty()) others.push_back(options.stats);
-  if (option != std::string_view("--checkpoint") && !options.run.checkpoint.empty()) {
-    others.push_back(options.run.checkpoint);
-  }
-  for (const auto& other : others) {
-    if (same_file(file, other)) refuse(option, file.string(), "a file of its own");
+  if (!options.load.environment.empty()) others.push_back(options.load.environment);
+  const std::pair<const char*, const std::filesystem::path&> files[] = {
+      {"--checkpoint", options.run.checkpoint},
+      {"--stats", options.stats},
+      {"--preview", options.run.preview}};
+  for (const auto& [option, file] : files) {
+    if (file.empty()) continue;
+    for (const auto& other : others) {
+      if (same_file(file, other)) refuse(option, file.string(), "a file of its own");
+    }
+    others.push_back(file);
   }
 }
 
@@ -94,8 +99,7 @@ void check_run(const CLI::App& app, const RenderOptions& options) {
   if (app.count("--preview-every") > 0 && run.preview.empty()) {
     throw CLI::ValidationError("--preview-every", "needs --preview");
   }
-  if (!run.checkpoint.empty()) check_own("--checkpoint", run.checkpoint, options);
-  if (!run.preview.empty()) check_own("--preview", run.preview, options);
+  check_files(options);
 }
 
 std::vector<std::string> words_of(const CLI::App& app) {

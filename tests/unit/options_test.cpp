@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "budget.hpp"
@@ -231,6 +232,20 @@ TEST(Options, ValuesOutOfRangeAreRefused) {
   expect_value_refused("--memory-budget", {"0", "", "4GB", "-1G", "much"});
   expect_value_refused("--photon-capacity", {"0", "-1"});
   expect_value_refused("--passes-in-flight", {"0", "17", "x"});
+}
+
+TEST(Options, FilesThatAreWrittenAreOnesOfTheirOwn) {
+  expect_refused({"render", "s.glb", "-o", "e.exr", "--env", "./e.exr"}, "-o");
+  expect_refused({"view", "s.glb", "-o", "e.exr", "--env", "e.exr"}, "-o");
+  constexpr std::pair<const char*, const char*> kClashes[] = {
+      // the second one is told of
+      {"--env", "--preview"},   {"--env", "--checkpoint"},    {"--env", "--stats"},
+      {"-o", "--preview"},      {"-o", "--checkpoint"},       {"--checkpoint", "--stats"},
+      {"--stats", "--preview"}, {"--checkpoint", "--preview"}};
+  for (const auto& [one, other] : kClashes) {
+    expect_refused({"render", "s.glb", "-o", "o.exr", one, "e.exr", other, "./e.exr"}, other);
+    expect_refused({"render", "s.glb", "-o", "o.exr", other, "./e.exr", one, "e.exr"}, other);
+  }
 }
 
 TEST(Options, SamplesAreThePassesOfMethodsThatTakeThem) {
