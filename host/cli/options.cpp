@@ -91,9 +91,10 @@ Options parse_verb(Verb verb, const std::string& name, std::vector<std::string> 
   return options;
 }
 
-Options parse_render(const std::vector<std::string>& arguments) {
+/// `verb`: whose help complaints point to.
+Options parse_render(const std::vector<std::string>& arguments, const char* verb = "render") {
   return parse_verb(
-      Verb::render, "render", arguments,
+      Verb::render, verb, arguments,
       [](CLI::App& app, Options& options) { declare_render(app, options.render); },
       [](const CLI::App& app, Options& options) { check_render(app, options.render); });
 }
@@ -185,6 +186,10 @@ Options parse(int argc, const char* const* argv) {
   }
   return usage_error(verb + (verb.starts_with('-') ? ": no such option" : ": no such verb"),
                      "see ppm-vk help");
+}
+
+Options parse_resumed(const std::vector<std::string>& words) {
+  return parse_render(words, "resume");
 }
 
 }  // namespace ppm::cli

@@ -146,4 +146,7 @@ struct Options {
 /// code 2.
 Options parse(int argc, const char* const* argv);
 
+/// Likewise, of the options of render with which a checkpoint goes on.
+Options parse_resumed(const std::vector<std::string>& words);
+
 }  // namespace ppm::cli

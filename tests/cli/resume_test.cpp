@@ -172,6 +172,8 @@ TEST_F(CliResume, WhatCannotGoOnIsRefusedInALine) {
   std::filesystem::remove(folder_ / "s.glb");
   expect_refused(run(resume({"--passes", "5"})), 1, "s.glb: there is no such file");
   expect_refused(run(resume({"--photons", "5"})), 2, "--photons");
+  expect_refused(run(resume({"--stats", path("c")})), 2,
+                 "--stats: '" + path("c") + "' is not a file of its own: see ppm-vk help resume");
   EXPECT_EQ(file_text(folder_ / "c"), sound);
 }
 

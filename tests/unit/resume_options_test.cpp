@@ -30,9 +30,8 @@ RenderOptions resumed(const Words& first, Words more) {
   more.insert(more.begin(), {"resume", "/y/c"});
   const Options resume = parse_words(more);
   EXPECT_EQ(resume.verb, Verb::resume);
-  Words words = resumed_words(kept(first), resume.resume);
-  words.insert(words.begin(), "render");
-  const Options options = parse_words(words);
+  const Words words = resumed_words(kept(first), resume.resume);
+  const Options options = parse_resumed(words);
   EXPECT_EQ(options.verb, Verb::render) << testing::PrintToString(words);
   return options.render;
 }
