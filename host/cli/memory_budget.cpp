@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kMostBytes = 1e18;
 
-/// What would help most.
+/// What would help most beside more memory; empty: nothing, since photons are held in portions that
+/// have become as small as they can.
 std::string remedy_for(const render::MemoryPlan& plan) {
   const std::string largest = render::largest_part(plan).name;
   if (largest.starts_with("textures")) return "scale textures down";
@@ -22,10 +23,8 @@ std::string remedy_for(const render::MemoryPlan& plan) {
     return "make the picture smaller or lower --spp";
   }
   if (largest == "checkpoint") return "make the picture smaller or do without --checkpoint";
-  if (largest == "film") {
-    return "make the picture smaller";
-  }
-  if (largest == "photons") return "lower --photons";
+  if (largest == "film") return "make the picture smaller";
+  if (largest == "photons") return "";
   if (largest == "photon map") return "lower --map-photons";
   return "simplify meshes or use fewer instances";
 }
@@ -78,10 +77,13 @@ render::MemoryFit fit_or_refuse(const std::string& file, const render::MemoryDem
   if (fit.fits) return fit;
   const render::MemoryPlan& plan = fit.plan;
   const auto refuse = [&](const char* place, std::uint64_t bytes, const std::string& limit,
-                          const char* other_remedy) {
+                          const std::string& more_memory) {
     std::string remedy =
         known == Known::all ? computed_remedy(demand, settings, limits) : std::string();
-    if (remedy.empty()) remedy = remedy_for(plan) + other_remedy;
+    if (remedy.empty()) {
+      remedy = remedy_for(plan);
+      remedy += (remedy.empty() ? "" : ", or ") + more_memory;
+    }
     throw Failure(
         file, place,
         fmt::format("a rendering takes {}{} ({}), but {}", known == Known::all ? "" : "at least ",
@@ -89,19 +91,21 @@ render::MemoryFit fit_or_refuse(const std::string& file, const render::MemoryDem
         remedy);
   };
   if (limits.budget && plan.peak() > *limits.budget) {
-    refuse("--memory-budget", plan.peak(),
-           fmt::format("may take {}", render::size_text(*limits.budget)),
-           ", or raise --memory-budget");
+    refuse(
+        "--memory-budget", plan.peak(),
+        fmt::format("may take {}", render::size_text(*limits.budget)),
+        fmt::format("raise --memory-budget to {}M{}", render::least_budget(demand, settings) >> 20,
+                    known == Known::all ? "" : " or more"));
   }
   const std::uint64_t on_host = limits.device ? plan.host_peak() : plan.peak();
   if (!limits.budget && on_host > limits.machine) {
     refuse("memory", on_host,
            fmt::format("the machine has {} left", render::size_text(limits.machine)),
-           ", or go ahead with a --memory-budget");
+           "go ahead with a --memory-budget");
   }
   refuse("device memory", plan.device_peak(),
          fmt::format("the device has {} left", render::size_text(*limits.device)),
-         ", or choose another --device");
+         "choose another --device");
   return fit;
 }
 

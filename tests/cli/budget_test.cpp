@@ -70,6 +70,14 @@ TEST_F(CliBudget, LeastThatIsToldSufficesAndMakesTheSamePicture) {
   const std::string one_less = std::to_string(megabytes - 1) + "M";
   EXPECT_EQ(run(words({"--memory-budget", one_less})).exit_code, 1);
 
+  // Before the scene is known that much is.
+  const Result hopeless = run(words({"--memory-budget", "1M"}));
+  expect_one_error(hopeless, 1, "may take 1 MiB: raise --memory-budget to ");
+  ASSERT_TRUE(std::regex_search(hopeless.err, least, std::regex("to (\\d+)M or more\n$")))
+      << hopeless.err;
+  EXPECT_GT(std::stoi(least[1]), 1);
+  EXPECT_LE(std::stoi(least[1]), megabytes);
+
   // And what else would do.
   const auto narrow = [&](int wide) {
     Words narrower = words({"--memory-budget", "185M"});
