@@ -1,4 +1,5 @@
-# Fails where an include leaves its room by path, or where a library is used outside the room that hides it.
+# Fails where an include leaves its room by path, where a library is used outside the room that hides it, or where a source
+# does not begin with its own header, which shows that the header needs nothing before it.
 # Script mode: SOURCE is the repository.
 set(faults "")
 
@@ -16,6 +17,14 @@ endif()
 
 foreach(file IN LISTS files)
   file(STRINGS ${SOURCE}/${file} includes REGEX "^[ \t]*#[ \t]*include")
+  string(REGEX REPLACE "[.]cpp$" ".hpp" header ${file})
+  if(file MATCHES "[.]cpp$" AND EXISTS ${SOURCE}/${header})
+    cmake_path(GET header FILENAME header)
+    list(GET includes 0 first)
+    if(NOT first STREQUAL "#include \"${header}\"")
+      list(APPEND faults "${file}: ${first}: its own header, ${header}, comes first")
+    endif()
+  endif()
   foreach(include IN LISTS includes)
     if(include MATCHES "\"\\.|/\\.\\.?/")
       list(APPEND faults "${file}: ${include}: a path instead of a room's file name")
