@@ -1,8 +1,6 @@
 // A glTF file as tinygltf reads it, and its places, so that every complaint can name one.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +16,7 @@
 #include "extensions.hpp"
 #include "log.hpp"
 #include "scene_size.hpp"
+#include "tiny_gltf.hpp"
 
 namespace ppm::scene::gltf {
 

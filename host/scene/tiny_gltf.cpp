@@ -1,5 +1,3 @@
 // tinygltf's own code: a library that comes as a header.
-#include <fstream>  // which it forgets under TINYGLTF_NO_FS
-
 #define TINYGLTF_IMPLEMENTATION
-#include <tiny_gltf.h>
+#include "tiny_gltf.hpp"
