@@ -166,6 +166,16 @@ void Estimator::paint(const HitTile& tile, const Settings& settings, float scale
   }
 }
 
+Picture Estimator::picture(HitTiles& tiles, const Settings& settings, float scale) {
+  Picture picture = Picture::black(settings.width, settings.height);
+  tiles.for_each([] { return false; }, HitTiles::Keep::no,
+                 [&](const HitTile& tile) {
+                   paint(tile, settings, scale, picture);
+                   return true;
+                 });
+  return picture;
+}
+
 void Estimator::set_radii(const HitTile& tile, float fixed_radius, float footprints) {
   device_.run([&](gpu::Recorder& recorder) {
     recorder.dispatch(radius_, table_for(tile), shared::RadiusPush{0, 0, fixed_radius, footprints},

@@ -10,7 +10,7 @@
 
 #include "counters.hpp"
 #include "device_batch.hpp"
-#include "hit_tile.hpp"
+#include "hit_tiles.hpp"
 #include "integrator.hpp"
 #include "photon_grid.hpp"
 #include "search_order.hpp"
@@ -55,8 +55,8 @@ class Estimator {
   /// Memory for that, beforehand.
   void reserve_pixels(std::uint64_t pixels);
 
-  /// Puts the tile's pixels into the picture. scale: idem.
-  void paint(const HitTile& tile, const Settings& settings, float scale, Picture& picture);
+  /// The same for all pixels of a picture. scale: idem.
+  Picture picture(HitTiles& tiles, const Settings& settings, float scale);
 
   /// Cell size that suits the radii as of the last update (or of `set_radii`), working units; 0
   /// without hit points.
@@ -83,6 +83,7 @@ class Estimator {
 
  private:
   gpu::BindingTable table_for(const HitTile& tile) const;
+  void paint(const HitTile& tile, const Settings& settings, float scale, Picture& picture);
   shared::GatherPush gather_push(const PhotonGrid& grid, std::uint32_t pass) const;
 
   gpu::Device& device_;

@@ -91,20 +91,17 @@ EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::Bind
       samples_(settings.samples_per_pixel),
       filter_(settings.filter),
       room_(EyeRoom::of(settings, device.max_storage_bytes())),
-      capacity_(room_.capacity),
-      queue_capacity_(room_.queue),
       hits_per_pixel_(room_.hits_a_pixel),
       table_(scene),
-      scan_(device, queue_capacity_),
-      queue_{
-          {device, "eye paths A", queue_capacity_ * sizeof(shared::EyePath), gpu::Usage::storage},
-          {device, "eye paths B", queue_capacity_ * sizeof(shared::EyePath), gpu::Usage::storage}},
-      group_count_(device, "hit points a path", queue_capacity_ * 4, gpu::Usage::storage),
+      scan_(device, room_.queue),
+      queue_{{device, "eye paths A", room_.queue * sizeof(shared::EyePath), gpu::Usage::storage},
+             {device, "eye paths B", room_.queue * sizeof(shared::EyePath), gpu::Usage::storage}},
+      group_count_(device, "hit points a path", room_.queue * 4, gpu::Usage::storage),
       counters_(device) {
-  if (samples_ > queue_capacity_) {
+  if (samples_ > room_.queue) {
     throw Failure("", "--spp " + std::to_string(samples_),
                   "the eye paths of one pixel do not fit a tile",
-                  "use at most " + std::to_string(queue_capacity_) + " or raise --tile-hits");
+                  "use at most " + std::to_string(room_.queue) + " or raise --tile-hits");
   }
   table_.set(PPM_BIND_CELL_COUNT, group_count_);
   counters_.bind(table_);
@@ -112,7 +109,7 @@ EyePass::EyePass(gpu::Device& device, const EyeKernels& kernels, const gpu::Bind
 
 EyePass::Result EyePass::trace(std::uint32_t first_pixel, std::uint32_t pixels,
                                const std::function<bool()>& interrupted, HitTile& tile) {
-  if (std::uint64_t{pixels} * samples_ > queue_capacity_) return Result::too_large;
+  if (std::uint64_t{pixels} * samples_ > room_.queue) return Result::too_large;
   tile.first_pixel = first_pixel;
   tile.pixels = pixels;
   std::uint64_t room = room_.records_for(hits_per_pixel_, pixels);
@@ -156,7 +153,7 @@ EyePass::Result EyePass::trace_paths(const HitTile& tile, std::uint64_t room,
   push.samples = samples_;
   push.filter_kind = static_cast<std::uint32_t>(filter_);
   push.hit_capacity = static_cast<std::uint32_t>(room);
-  push.path_capacity = static_cast<std::uint32_t>(queue_capacity_);
+  push.path_capacity = static_cast<std::uint32_t>(room_.queue);
   push.split_weight = kSplitWeight;
   std::uint64_t alive = std::uint64_t{tile.pixels} * samples_;
   rays_ = 0;
@@ -176,7 +173,7 @@ EyePass::Result EyePass::trace_paths(const HitTile& tile, std::uint64_t room,
       counters_.read(recorder);
     });
     alive = counters_[PPM_COUNTER_PATHS_OUT];
-    if (alive > queue_capacity_ || counters_[PPM_COUNTER_HITS] > capacity_)
+    if (alive > room_.queue || counters_[PPM_COUNTER_HITS] > room_.capacity)
       return Result::too_large;
   }
   rays_ += counters_[PPM_COUNTER_EYE_RAYS];

@@ -13,6 +13,9 @@
 
 namespace ppm::render {
 
+/// Smaller tiles would take hardly less beside what else there is.
+inline constexpr std::uint64_t kFewestTileHits = 1u << 12;
+
 /// Hit points a tile holds at most: as many as asked for, or as the largest buffer takes.
 std::uint64_t tile_capacity(const Settings& settings, std::uint64_t storage_bytes);
 /// For how many the largest tile has room: fewer where the picture is small.
@@ -81,8 +84,7 @@ class EyePass {
   std::uint32_t samples_;
   Filter filter_;
   EyeRoom room_;
-  std::uint64_t capacity_, queue_capacity_;  ///< room_'s
-  double hits_per_pixel_;                    ///< expected of the next tile
+  double hits_per_pixel_;  ///< expected of the next tile
   gpu::BindingTable table_;
   ExclusiveScan scan_;
   gpu::Buffer queue_[2], group_count_, keys_, arrivals_;

@@ -7,12 +7,6 @@
 #include "region.hpp"
 
 namespace ppm::render {
-namespace {
-
-// Smaller tiles would take no less beside what else there is.
-constexpr std::uint64_t kFewestTileHits = 1u << 12;
-
-}  // namespace
 
 EarlyEyeKernels::EarlyEyeKernels(const scene::Scene& scene, const Settings& settings,
                                  gpu::Device& device)

@@ -8,6 +8,7 @@
 #include "mlt.hpp"
 #include "path_tracer.hpp"
 #include "pm.hpp"
+#include "portions.hpp"
 #include "ppm.hpp"
 #include "scene_buffers.hpp"
 
@@ -27,31 +28,39 @@ struct Entry {
   Method method;
   Factory make;
   std::vector<MemoryPart> (*memory)(const Settings&, const PassLimits&);
+  Portions (*portions)(const Settings&, const PassLimits&);
 };
 
 constexpr Entry kIntegrators[] = {
     {{"ppm", "progressive photon mapping", PassUnit::photons, "--photons --alpha --radius"},
      create<PpmIntegrator>,
-     ppm_memory},
+     ppm_memory,
+     ppm_portions},
     {{"pt", "path tracing, one light sampled at each surface", PassUnit::samples, ""},
      create<PathTracer>,
-     path_tracer_memory},
+     path_tracer_memory,
+     path_tracer_portions},
     {{"pt-mis", "the same, with multiple importance sampling", PassUnit::samples, ""},
      create<PathTracer>,
-     path_tracer_memory},
+     path_tracer_memory,
+     path_tracer_portions},
     {{"bdpt", "bidirectional path tracing", PassUnit::samples, ""},
      create<BdptIntegrator>,
-     bdpt_memory},
+     bdpt_memory,
+     bdpt_portions},
     {{"lt", "light tracing: what light paths show the lens", PassUnit::samples, ""},
      create<BdptIntegrator>,
-     bdpt_memory},
+     bdpt_memory,
+     bdpt_portions},
     {{"mlt", "Metropolis light transport over bidirectional samples", PassUnit::mutations, ""},
      create<MltIntegrator>,
-     mlt_memory},
+     mlt_memory,
+     mlt_portions},
     {{"pm", "classic photon mapping: one map, the nearest photons", PassUnit::photons,
       "--photons --map-photons --nearest --radius", true},
      create<PhotonMapIntegrator>,
-     photon_map_memory},
+     photon_map_memory,
+     photon_map_portions},
 };
 
 const Entry& entry_named(std::string_view name) {
@@ -107,6 +116,10 @@ Method method_named(std::string_view name) {
 
 std::vector<MemoryPart> method_memory(const Settings& settings, const PassLimits& limits) {
   return entry_named(settings.integrator).memory(settings, limits);
+}
+
+Portions method_portions(const Settings& settings, const PassLimits& limits) {
+  return entry_named(settings.integrator).portions(settings, limits);
 }
 
 }  // namespace ppm::render

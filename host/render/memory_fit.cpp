@@ -5,21 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bidirectional_sampler.hpp"
-#include "eye_shape.hpp"
-#include "photon_map.hpp"
+#include "portions.hpp"
 
 namespace ppm::render {
 namespace {
 
-// Smaller tiles and chunks would take hardly less beside what else there is.
-constexpr std::uint64_t kFewestTileHits = 1u << 12;
-// Paths of a device for each chain of mlt: chains are stepped together.
-constexpr std::uint64_t kPathsAChain = 64;
+// Smaller chunks would take hardly less beside what else there is.
 constexpr std::uint64_t kFewestPhotons = 1u << 14;
 // That a path leaves: with fewer in memory every pass is traced in chunks.
 constexpr std::uint64_t kPhotonsAPath = 4;
-constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::eye, Phase::render};
 
 /// What is beyond the limits, summed over all phases and limits: 0 where it fits.
 std::uint64_t excess(const MemoryPlan& plan, const MemoryLimits& limits) {
@@ -39,28 +33,8 @@ std::uint64_t excess(const MemoryPlan& plan, const MemoryLimits& limits) {
   return sum;
 }
 
-/// What can be had in pieces of any size: their sizes, and how small they may get.
-struct Portions {
-  std::uint64_t tile_hits, photons;
-};
-
 bool has_photons(const Settings& settings) {
   return method_named(settings.integrator).unit == PassUnit::photons;
-}
-
-/// As the settings have them: no larger than anything can be.
-Portions portions_of(const Settings& settings, const PassLimits& limits) {
-  if (!has_photons(settings)) {
-    const bool is_path_tracer = settings.integrator.starts_with("pt");
-    return {is_path_tracer ? pass_capacities(settings, limits).camera_paths
-                           : sampler_capacities(settings, limits.storage_bytes, 0).paths,
-            settings.photon_capacity};
-  }
-  std::uint64_t photons = pass_capacities(settings, limits).photons;
-  if (settings.integrator == "pm") {
-    photons = std::max(photons, PhotonMapShape::of(settings, limits).grid_photons);
-  }
-  return {EyeShape::of(settings, limits).tile_room, photons};
 }
 
 Settings with(const Settings& settings, const Portions& portions) {
@@ -81,12 +55,13 @@ class Search {
 
   /// Halves portions, always that which helps most, down to `fewest`.
   Settings halved(const Settings& settings, const Portions& fewest) const {
-    Portions now = portions_of(settings, demand_.limits);
+    Portions now = method_portions(settings, demand_.limits);
     Settings best = settings;
     std::uint64_t left = excess_of(best);
     while (left > 0) {
-      const Portions choices[] = {{now.tile_hits / 2, now.photons},
-                                  {now.tile_hits, now.photons / 2}};
+      Portions choices[] = {now, now};
+      choices[0].tile_hits /= 2;
+      choices[1].photons /= 2;
       const std::uint64_t before = left;
       for (const Portions& choice : choices) {
         if (choice.tile_hits < fewest.tile_hits || choice.photons < fewest.photons) continue;
@@ -163,11 +138,9 @@ MemoryFit fit_memory(const MemoryDemand& demand, const Settings& settings,
   };
   if (search.excess_of(settings) == 0) return finished(settings);
 
-  const Portions most = portions_of(settings, demand.limits);
-  const std::uint64_t together = settings.integrator == "mlt"
-                                     ? demand.limits.profile.paths / kPathsAChain
-                                     : 2 * settings.samples_per_pixel;
-  const std::uint64_t tile_hits = std::min(most.tile_hits, std::max(kFewestTileHits, together));
+  const Portions most = method_portions(settings, demand.limits);
+  Portions fewest = most;
+  fewest.tile_hits = std::min(most.tile_hits, most.fewest_tile_hits);
   const std::uint64_t few = has_photons(settings) ? kFewestPhotons : most.photons;
   // Chunks of a pass cost less than tracing hit points anew, for which they would be traced anew.
   const std::uint64_t of_a_pass = std::max(few, kPhotonsAPath * settings.photons_per_pass);
@@ -177,7 +150,8 @@ MemoryFit fit_memory(const MemoryDemand& demand, const Settings& settings,
       Settings start = settings;
       start.traces_anew = settings.traces_anew || (thrifty && has_photons(settings));
       start.keeps_film = settings.keeps_film && (!thrifty || has_photons(settings));
-      best = search.halved(start, {tile_hits, std::min(photons, most.photons)});
+      fewest.photons = std::min(photons, most.photons);
+      best = search.halved(start, fewest);
       if (search.excess_of(best) > 0) continue;
       if (best.tile_hits < most.tile_hits) {
         best = search.enlarged(best, &Settings::tile_hits, most.tile_hits);
@@ -194,8 +168,8 @@ MemoryFit fit_memory(const MemoryDemand& demand, const Settings& settings,
 std::string describe_change(const MemoryDemand& demand, const Settings& asked,
                             const Settings& fitted) {
   std::vector<std::string> changes;
-  const Portions before = portions_of(asked, demand.limits),
-                 after = portions_of(fitted, demand.limits);
+  const Portions before = method_portions(asked, demand.limits),
+                 after = method_portions(fitted, demand.limits);
   const char* const what = has_photons(asked) ? "hit points" : "paths";
   if (after.tile_hits < before.tile_hits) {
     changes.push_back(fmt::format("tiles of {} {} instead of {}", grouped(after.tile_hits), what,
@@ -251,7 +225,7 @@ std::vector<std::string> what_would_fit(const MemoryDemand& demand, const Settin
       changed.samples_per_pixel = static_cast<std::uint32_t>(samples);
     });
   }
-  if (settings.integrator == "pm") {
+  if (method_named(settings.integrator).has_option("--map-photons")) {
     add("--map-photons", settings.map_photons,
         [](Settings& changed, std::uint64_t photons) { changed.map_photons = photons; });
   }

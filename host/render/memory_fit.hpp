@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "layers.hpp"
 #include "memory_plan.hpp"

@@ -25,8 +25,6 @@ constexpr std::uint64_t kSmallPart = 50;
 constexpr const char* kProgramName = "program and driver";
 constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
 
-constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::eye, Phase::render};
-
 constexpr std::uint64_t kPhotonBytes = 4 * sizeof(glm::uvec4);  // as found and in cell order
 
 // Of an entry of an alias table while it is made: its weight, also scaled, threshold, alias and its

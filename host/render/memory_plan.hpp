@@ -14,6 +14,8 @@ namespace ppm::render {
 
 /// What follows upon what; a part is held from one of these to another.
 enum class Phase { load, build, upload, eye, render };
+inline constexpr Phase kPhases[] = {Phase::load, Phase::build, Phase::upload, Phase::eye,
+                                    Phase::render};
 
 struct MemoryPart {
   std::string name;

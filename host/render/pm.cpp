@@ -199,17 +199,8 @@ Picture PhotonMapIntegrator::resolve() {
   const Stopwatch stopwatch(statistics_.seconds["resolve"]);
   const double emitted =
       static_cast<double>(std::max<std::uint64_t>(statistics_.photons_emitted, 1));
-  return picture(static_cast<float>(buffers_.total_power() / emitted));
-}
-
-Picture PhotonMapIntegrator::picture(float scale) {
-  Picture picture = Picture::black(settings_.width, settings_.height);
-  tiles_.for_each([] { return false; }, HitTiles::Keep::no,
-                  [&](const HitTile& tile) {
-                    estimator_.paint(tile, settings_, scale, picture);
-                    return true;
-                  });
-  return picture;
+  return estimator_.picture(tiles_, settings_,
+                            static_cast<float>(buffers_.total_power() / emitted));
 }
 
 void PhotonMapIntegrator::estimate() {
@@ -303,7 +294,7 @@ std::vector<image::Layer> PhotonMapIntegrator::layers(std::span<const LayerKind>
   }
   if (std::ranges::find(kinds, LayerKind::direct_emission) != kinds.end()) {
     layers.push_back(empty_layer(LayerKind::direct_emission, 0));
-    layers.back().values = picture(0.0f).rgb;
+    layers.back().values = estimator_.picture(tiles_, settings_, 0.0f).rgb;
   }
   return layers;
 }

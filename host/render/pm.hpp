@@ -57,7 +57,6 @@ class PhotonMapIntegrator final : public Integrator, public LayerSource {
   NearestPhotons::Request next_request();
   void learn_cell();  ///< from the last search
   void record_radii(std::vector<float> radii2);
-  Picture picture(float scale);
   std::uint64_t fingerprint() const;
 
   Settings settings_;

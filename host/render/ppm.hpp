@@ -68,7 +68,6 @@ class PpmIntegrator final : public Integrator, public LayerSource {
   bool advance_tile_by_tile(float cell, const std::function<bool()>& interrupted);
   /// Their histogram from what is kept, where tiles are traced anew.
   void measure_kept_radii();
-  Picture picture(float scale);
   /// From R^2 of all hit points, in the working frame.
   void record_initial_radii(std::vector<float> radii2);
 
