@@ -27,6 +27,12 @@ class Estimator {
   /// terms were out of the range of fixed point and how many normal factors were clamped.
   struct Rejected {
     std::uint64_t overflow = 0, clamped = 0;
+
+    Rejected& operator+=(const Rejected& more) {
+      overflow += more.overflow;
+      clamped += more.clamped;
+      return *this;
+    }
   };
   Rejected gather(const HitTile& tile, const PhotonGrid& grid);
 

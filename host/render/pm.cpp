@@ -216,14 +216,12 @@ void PhotonMapIntegrator::estimate() {
       nearest_->find(tile, map_.grids(), request);
     }
     const Stopwatch stopwatch(statistics_.seconds["update"]);
-    for (const PhotonGrid& grid : map_.grids()) {
-      const Estimator::Rejected more = estimator_.gather(tile, grid);
-      rejected.overflow += more.overflow;
-      rejected.clamped += more.clamped;
-    }
+    Estimator::Rejected of_tile;
+    for (const PhotonGrid& grid : map_.grids()) of_tile += estimator_.gather(tile, grid);
     // With alpha = 1 the update divides by the disc's area and leaves the radius.
     estimator_.update(std::span(&tile, 1), 1.0f);
     estimator_.add_radii(tile, radii2);
+    rejected += of_tile;
     return true;
   };
   tiles_.for_each([] { return false; }, HitTiles::Keep::yes, estimate);

@@ -129,11 +129,10 @@ bool PpmIntegrator::advance_tile_by_tile(float cell, const std::function<bool()>
   estimator_.clear_radii();
   const auto advance = [&](HitTile& tile) {
     estimator_.order_searches(tile, cell);
+    Estimator::Rejected rejected;
     Tally photons;
     const auto gather = [&] {
-      const Estimator::Rejected rejected = estimator_.gather(tile, grid_);
-      tally.overflow += rejected.overflow;
-      tally.clamped += rejected.clamped;
+      rejected += estimator_.gather(tile, grid_);
       photons.photons_stored += tracer_.photon_count();
       photons.add(tracer_.counters());
       return true;
@@ -144,9 +143,11 @@ bool PpmIntegrator::advance_tile_by_tile(float cell, const std::function<bool()>
       const auto chunks = for_each_chunk(PPM_STREAM_PHOTON, pass, cell, stop, gather);
       if (!chunks) return false;
       whole = *chunks == 1;
-      if (first) tally += photons;  // every tile sees the same
     }
     estimator_.update_and_add_radii(tile, static_cast<float>(settings_.alpha));
+    tally.overflow += rejected.overflow;
+    tally.clamped += rejected.clamped;
+    if (first) tally += photons;  // every tile sees the same
     first = false;
     return true;
   };
