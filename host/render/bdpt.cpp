@@ -10,12 +10,6 @@
 namespace ppm::render {
 namespace {
 
-SceneTraits traits_with_segments(const scene::Scene& scene, const SceneBuffers& buffers) {
-  SceneTraits traits = traits_of(scene);
-  buffers.add_segments(traits);
-  return traits;
-}
-
 gpu::BindingTable table_of(const SceneBuffers& buffers, const Film& film) {
   gpu::BindingTable table;
   buffers.bind(table);
@@ -40,7 +34,7 @@ BdptIntegrator::BdptIntegrator(const Settings& settings, const scene::Scene& sce
       scene_(scene),
       device_(device),
       buffers_(scene, settings, device, threads),
-      traits_(traits_with_segments(scene, buffers_)),
+      traits_(buffers_.traits_of(scene)),
       film_(device, buffers_.constants(), settings.keeps_film),
       table_(table_of(buffers_, film_)),
       sampler_(device, table_, traits_, settings, ways_of(settings, scene)),

@@ -2,17 +2,10 @@
 
 #include <cstring>
 
-#include "failure.hpp"
 #include "fingerprint.hpp"
+#include "saved_state.hpp"
 
 namespace ppm::render {
-namespace {
-
-[[noreturn]] void refuse(const char* why) {
-  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
-}
-
-}  // namespace
 
 std::uint64_t film_fingerprint(const Settings& settings, const shared::SceneConstants& constants,
                                const scene::Scene& scene) {
@@ -26,20 +19,17 @@ std::uint64_t film_fingerprint(const Settings& settings, const shared::SceneCons
 
 SavedState save_film(const Film& film, const FilmState& header) {
   const std::vector<std::uint32_t> sums = film.save();
-  SavedState state(sizeof header + sums.size() * sizeof sums[0]);
-  std::memcpy(state.data(), &header, sizeof header);
+  SavedState state = state_of(header);
+  state.resize(sizeof header + sums.size() * sizeof sums[0]);
   std::memcpy(state.data() + sizeof header, sums.data(), state.size() - sizeof header);
   return state;
 }
 
 std::uint64_t restore_film(Film& film, const SavedState& state, std::uint64_t fingerprint) {
-  FilmState header;
-  if (state.size() < sizeof header) refuse("truncated");
-  std::memcpy(&header, state.data(), sizeof header);
-  if (header.fingerprint != fingerprint) refuse("of another scene or other options");
+  const auto header = header_of<FilmState>(state, fingerprint);
   std::vector<std::uint32_t> sums((state.size() - sizeof header) / sizeof(std::uint32_t));
   std::memcpy(sums.data(), state.data() + sizeof header, sums.size() * sizeof sums[0]);
-  if (!film.restore(sums)) refuse("truncated");
+  if (!film.restore(sums)) refuse_state("truncated");
   return header.passes;
 }
 

@@ -34,12 +34,6 @@ std::uint32_t chains_for(const gpu::DeviceProfile& profile, const Settings& sett
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, pixels));
 }
 
-SceneTraits traits_with_segments(const scene::Scene& scene, const SceneBuffers& buffers) {
-  SceneTraits traits = traits_of(scene);
-  buffers.add_segments(traits);
-  return traits;
-}
-
 shared::SceneConstants of_chains(shared::SceneConstants scene, std::uint32_t chains) {
   scene.width = chains;
   scene.height = 1;
@@ -78,7 +72,7 @@ MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene
       scene_(scene),
       device_(device),
       buffers_(scene, settings, device, threads),
-      traits_(traits_with_segments(scene, buffers_)),
+      traits_(buffers_.traits_of(scene)),
       chains_(chains_for(device.profile(), settings)),
       bootstrap_(bootstrap_for(chains_)),
       film_(device, buffers_.constants(), settings.keeps_film),

@@ -1,9 +1,9 @@
 // Saving and restoring Markov chains between two passes.
 #include <cstring>
 
-#include "failure.hpp"
 #include "fingerprint.hpp"
 #include "mlt.hpp"
+#include "saved_state.hpp"
 #include "shared/markov_chain.h"
 
 namespace ppm::render {
@@ -11,7 +11,7 @@ namespace {
 
 // Then follow the film's sums and, unless no light was found, the chains' words, the chains, and
 // the splats of their states, chain by chain.
-struct Header {
+struct MltHeader {
   std::uint64_t fingerprint;
   std::uint64_t passes, steps;
   double bootstrap_sum;
@@ -33,10 +33,6 @@ std::vector<T> take(const SavedState& state, std::size_t& next, std::size_t coun
   return values;
 }
 
-[[noreturn]] void refuse(const char* why) {
-  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
-}
-
 }  // namespace
 
 std::uint64_t MltIntegrator::fingerprint() const {
@@ -50,7 +46,7 @@ std::uint64_t MltIntegrator::fingerprint() const {
 }
 
 SavedState MltIntegrator::save_state() {
-  Header header{fingerprint(), statistics_.passes, steps_, bootstrap_sum_, 0};
+  MltHeader header{fingerprint(), statistics_.passes, steps_, bootstrap_sum_, 0};
   std::vector<std::uint32_t> words;
   std::vector<shared::Chain> chains;
   std::vector<shared::LensSplat> splats;
@@ -65,8 +61,7 @@ SavedState MltIntegrator::save_state() {
     }
   }
   header.splats = splats.size();
-  SavedState state(sizeof header);
-  std::memcpy(state.data(), &header, sizeof header);
+  SavedState state = state_of(header);
   append(state, film_.save());
   append(state, words);
   append(state, chains);
@@ -75,10 +70,7 @@ SavedState MltIntegrator::save_state() {
 }
 
 void MltIntegrator::restore_state(const SavedState& state) {
-  Header header;
-  if (state.size() < sizeof header) refuse("truncated");
-  std::memcpy(&header, state.data(), sizeof header);
-  if (header.fingerprint != fingerprint()) refuse("of another scene or other options");
+  const auto header = header_of<MltHeader>(state, fingerprint());
   const bool lit = header.bootstrap_sum > 0.0;
   const std::size_t film_words =
       3 * std::size_t{settings_.width} * settings_.height * sizeof(shared::FilmSum) / 4;
@@ -88,20 +80,20 @@ void MltIntegrator::restore_state(const SavedState& state) {
                             chain_count * sizeof(shared::Chain);
   if (state.size() < fixed || (state.size() - fixed) / sizeof(shared::LensSplat) != header.splats ||
       (state.size() - fixed) % sizeof(shared::LensSplat) != 0) {
-    refuse("truncated");
+    refuse_state("truncated");
   }
   std::size_t next = sizeof header;
-  if (!film_.restore(take<std::uint32_t>(state, next, film_words))) refuse("truncated");
+  if (!film_.restore(take<std::uint32_t>(state, next, film_words))) refuse_state("truncated");
   const auto words = take<std::uint32_t>(state, next, chain_words);
   const auto chains = take<shared::Chain>(state, next, chain_count);
   const auto splats = take<shared::LensSplat>(state, next, header.splats);
   std::uint64_t sum = 0;
   for (const shared::Chain& chain : chains) {
-    if (chain.splats != sum) refuse("damaged");
+    if (chain.splats != sum) refuse_state("damaged");
     sum += chain.splat_count;
   }
-  if (sum != splats.size()) refuse("damaged");
-  if (sum > splat_capacity_) refuse("its chains need more memory than there is now");
+  if (sum != splats.size()) refuse_state("damaged");
+  if (sum > splat_capacity_) refuse_state("its chains need more memory than there is now");
   if (lit) {
     words_.upload(std::span(words));
     states_.upload(std::span(chains));

@@ -3,23 +3,17 @@
 // Photons follow from their numbers: a map of millions is traced again in seconds, and as bytes
 // would be what a checkpoint takes longest to write. What they add up to tells whether they are the
 // same.
-#include <cstring>
-
-#include "failure.hpp"
 #include "fingerprint.hpp"
 #include "pm.hpp"
+#include "saved_state.hpp"
 
 namespace ppm::render {
 namespace {
 
-struct Header {
+struct PhotonMapHeader {
   std::uint64_t fingerprint;
   std::uint64_t passes, photons_emitted, map_photons;
 };
-
-[[noreturn]] void refuse(const char* why) {
-  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
-}
 
 }  // namespace
 
@@ -39,25 +33,21 @@ std::uint64_t PhotonMapIntegrator::fingerprint() const {
 }
 
 SavedState PhotonMapIntegrator::save_state() {
-  const Header header{fingerprint(), statistics_.passes, statistics_.photons_emitted,
-                      map_.photons()};
-  SavedState state(sizeof header);
-  std::memcpy(state.data(), &header, sizeof header);
-  return state;
+  const PhotonMapHeader header{fingerprint(), statistics_.passes, statistics_.photons_emitted,
+                               map_.photons()};
+  return state_of(header);
 }
 
 void PhotonMapIntegrator::restore_state(const SavedState& state) {
-  Header header;
-  if (state.size() != sizeof header) refuse("truncated");
-  std::memcpy(&header, state.data(), sizeof header);
-  if (header.fingerprint != fingerprint()) refuse("of another scene or other options");
+  const auto header = header_of<PhotonMapHeader>(state, fingerprint());
+  if (state.size() != sizeof header) refuse_state("truncated");
   const auto never = [] { return false; };
   prepare(never);
   while (statistics_.passes < header.passes && !complete_) advance(never);
   if (statistics_.passes != header.passes ||
       statistics_.photons_emitted != header.photons_emitted ||
       map_.photons() != header.map_photons) {
-    refuse("of another device or program");
+    refuse_state("of another device or program");
   }
   statistics_.pass_seconds.clear();  // those of this program's own
 }

@@ -1,25 +1,19 @@
 // Saving and restoring a rendering between two passes.
-#include <cstring>
-
-#include "failure.hpp"
 #include "fingerprint.hpp"
 #include "memory_shortage.hpp"
 #include "ppm.hpp"
+#include "saved_state.hpp"
 
 namespace ppm::render {
 namespace {
 
 // Everything else follows from scene and settings: geometry of hit points by tracing the eye paths
 // again, photons by their numbers.
-struct Header {
+struct PpmHeader {
   std::uint64_t fingerprint;
   std::uint64_t passes, photons_emitted, photons_stored;
   std::uint64_t hit_points;
 };
-
-[[noreturn]] void refuse(const char* why) {
-  throw Failure("", "saved state", why, "resume with the scene and options it was saved with");
-}
 
 }  // namespace
 
@@ -45,22 +39,19 @@ void PpmIntegrator::measure_kept_radii() {
 }
 
 SavedState PpmIntegrator::save_state() {
-  const Header header{fingerprint(), statistics_.passes, statistics_.photons_emitted,
-                      statistics_.photons_stored, statistics_.hit_points};
-  SavedState state(sizeof header);
-  std::memcpy(state.data(), &header, sizeof header);
+  const PpmHeader header{fingerprint(), statistics_.passes, statistics_.photons_emitted,
+                         statistics_.photons_stored, statistics_.hit_points};
+  SavedState state = state_of(header);
   tiles_.save(state);
   return state;
 }
 
 void PpmIntegrator::restore_state(const SavedState& state) {
-  Header header;
-  if (state.size() < sizeof header) refuse("truncated");
-  std::memcpy(&header, state.data(), sizeof header);
-  if (header.fingerprint != fingerprint()) refuse("of another scene or other options");
-  if (state.size() != sizeof header + header.hit_points * sizeof(KeptHit)) refuse("truncated");
+  const auto header = header_of<PpmHeader>(state, fingerprint());
+  if (state.size() != sizeof header + header.hit_points * sizeof(KeptHit))
+    refuse_state("truncated");
   trace_eye_paths([] { return false; });
-  if (statistics_.hit_points != header.hit_points) refuse("of another device or program");
+  if (statistics_.hit_points != header.hit_points) refuse_state("of another device or program");
   const std::uint8_t* const hits = state.data() + sizeof header;
   try {
     tiles_.restore(hits);
