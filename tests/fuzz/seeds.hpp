@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::fuzz {
 

@@ -1,5 +1,5 @@
 // An orthographic camera shows things as large as they are, wherever they stand.
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 #include "render_harness.hpp"
 
 namespace ppm::test {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

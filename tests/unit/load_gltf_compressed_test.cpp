@@ -1,8 +1,8 @@
 // Compressed geometry that is broken or claims too much: one line that names the place.
 #include <gtest/gtest.h>
 
-#include "gltf_document.hpp"
 #include "gltf_draco_header.hpp"
+#include "made_document.hpp"
 #include "mesh_variants.hpp"
 #include "pack_mesh.hpp"
 

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <limits>
 
-#include "gltf_document.hpp"
 #include "load_gltf.hpp"
+#include "made_document.hpp"
 #include "malformed.hpp"
 
 namespace ppm::test {

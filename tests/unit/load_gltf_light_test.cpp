@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "failure.hpp"
-#include "gltf_document.hpp"
 #include "load_gltf.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

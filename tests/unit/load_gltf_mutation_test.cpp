@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

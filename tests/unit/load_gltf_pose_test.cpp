@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

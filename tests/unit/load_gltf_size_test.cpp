@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "failure.hpp"
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 #include "mesh_variants.hpp"
 
 namespace ppm::test {

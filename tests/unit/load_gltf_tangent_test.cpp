@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "gltf_document.hpp"
 #include "gltf_mesh.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

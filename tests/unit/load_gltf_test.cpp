@@ -6,8 +6,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "failure.hpp"
-#include "gltf_document.hpp"
 #include "load_gltf.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
-#include "gltf_document.hpp"
 #include "load_gltf.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 namespace ppm::test {
 

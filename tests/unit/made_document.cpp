@@ -1,4 +1,4 @@
-#include "gltf_document.hpp"
+#include "made_document.hpp"
 
 #include <gtest/gtest.h>
 
