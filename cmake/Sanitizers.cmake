@@ -14,11 +14,17 @@ if(PPM_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# The instrumented build is slow where headers are heavy: these rooms compile several files at a time, and without
-# optimisation, since none of them computes much.
-function(ppm_build_instrumented_quickly)
+# The instrumented build is slow where headers are heavy: these rooms compile several files at a time.
+function(ppm_build_instrumented_together)
   if(PPM_SANITIZE AND NOT PPM_FUZZ)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON)
+  endif()
+endfunction()
+
+# And these without optimisation, since they hardly compute.
+function(ppm_build_instrumented_quickly)
+  ppm_build_instrumented_together(${ARGN})
+  if(PPM_SANITIZE AND NOT PPM_FUZZ)
     foreach(target ${ARGN})
       target_compile_options(${target} PRIVATE -O0)
     endforeach()
