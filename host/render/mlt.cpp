@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "eye_pass.hpp"
 #include "failure.hpp"
 #include "memory_plan.hpp"
+#include "portions.hpp"
 #include "ppm_shaders.hpp"
 #include "region.hpp"
 #include "shared/markov_chain.h"
@@ -64,6 +66,13 @@ std::vector<MemoryPart> mlt_memory(const Settings& settings, const PassLimits& l
       {"chains as a pass begins", settings.keeps_film ? words + states : 0, false, Phase::render,
        Phase::render},
       film_memory(pixels, settings.keeps_film)};
+}
+
+Portions mlt_portions(const Settings& settings, const PassLimits& limits) {
+  const std::uint32_t chains = chains_for(limits.profile, settings);
+  // Chains are stepped together.
+  return {sampler_capacities(settings, limits.storage_bytes, chains).paths,
+          settings.photon_capacity, std::max<std::uint64_t>(kFewestTileHits, chains)};
 }
 
 MltIntegrator::MltIntegrator(const Settings& settings, const scene::Scene& scene,

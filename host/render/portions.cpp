@@ -10,15 +10,8 @@
 namespace ppm::render {
 namespace {
 
-// Paths of a device for each chain of mlt: chains are stepped together.
-constexpr std::uint64_t kPathsAChain = 64;
-
 std::uint64_t fewest_of_pixels(const Settings& settings) {
   return std::max<std::uint64_t>(kFewestTileHits, 2 * settings.samples_per_pixel);
-}
-
-std::uint64_t sampler_paths(const Settings& settings, const PassLimits& limits) {
-  return sampler_capacities(settings, limits.storage_bytes, 0).paths;
 }
 
 }  // namespace
@@ -40,12 +33,8 @@ Portions path_tracer_portions(const Settings& settings, const PassLimits& limits
 }
 
 Portions bdpt_portions(const Settings& settings, const PassLimits& limits) {
-  return {sampler_paths(settings, limits), settings.photon_capacity, fewest_of_pixels(settings)};
-}
-
-Portions mlt_portions(const Settings& settings, const PassLimits& limits) {
-  return {sampler_paths(settings, limits), settings.photon_capacity,
-          std::max<std::uint64_t>(kFewestTileHits, limits.profile.paths / kPathsAChain)};
+  return {sampler_capacities(settings, limits.storage_bytes, 0).paths, settings.photon_capacity,
+          fewest_of_pixels(settings)};
 }
 
 }  // namespace ppm::render

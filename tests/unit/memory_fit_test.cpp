@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "portions.hpp"
+
 namespace ppm::tests {
 namespace {
 
@@ -33,6 +35,42 @@ MemoryLimits budget_of(std::uint64_t bytes) {
 bool same_portions(const render::Settings& a, const render::Settings& b) {
   return a.tile_hits == b.tile_hits && a.photon_capacity == b.photon_capacity &&
          a.traces_anew == b.traces_anew && a.keeps_film == b.keeps_film;
+}
+
+std::uint64_t bytes_of(const render::MemoryPlan& plan, const std::string& name) {
+  const auto part = std::ranges::find(plan.parts, name, &render::MemoryPart::name);
+  return part == plan.parts.end() ? 0 : part->bytes;
+}
+
+// What is cut into portions is as large with the whole ones as with the settings, and smaller with
+// smaller ones. Small passes, for a map that is many times as large as one.
+TEST(MemoryFit, WholePortionsAreThoseOfTheSettings) {
+  for (const render::PassLimits& limits : {render::PassLimits::of_cpu(), limits_of_gpu()}) {
+    const MemoryDemand demand = demand_of(limits);
+    for (const render::Method& method : render::methods()) {
+      render::Settings settings;
+      settings.integrator = method.name;
+      settings.photons_per_pass = 1000;
+      const render::Portions whole = render::method_portions(settings, limits);
+      render::Settings portioned = settings;
+      portioned.tile_hits = whole.tile_hits;
+      portioned.photon_capacity = whole.photons;
+      const render::MemoryPlan plan = demand.plan(settings), same = demand.plan(portioned);
+      for (const char* const name : {"hit points", "photon map", "paths", "sub-paths", "chains"}) {
+        EXPECT_EQ(bytes_of(same, name), bytes_of(plan, name)) << method.name << ' ' << name;
+      }
+      portioned.tile_hits = whole.tile_hits * 3 / 4;
+      EXPECT_LT(demand.plan(portioned).peak(), same.peak()) << method.name;
+    }
+  }
+}
+
+// Chains are stepped together.
+TEST(MemoryFit, FewestPathsAreThoseOfAllChains) {
+  render::Settings settings;
+  settings.integrator = "mlt";
+  settings.mlt_chains = 5000;
+  EXPECT_EQ(render::method_portions(settings, limits_of_gpu()).fewest_tile_hits, 5000u);
 }
 
 TEST(MemoryFit, ChangesNothingWhereAllFits) {
